@@ -1,0 +1,147 @@
+// Case: a validated case file as plain data. Made by read.hpp, turned into a Simulation by build.hpp.
+#pragma once
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/vec.hpp"
+#include "model/material.hpp"
+
+namespace geist {
+
+/// Place of something in the case file, for messages.
+struct Source {
+  int line = 0, column = 0;
+  std::string text;  ///< the offending text: a key, a value, or the name of a table
+};
+
+struct Units {
+  std::string length, mass, time;
+};
+
+struct Box {
+  Vec3 low, high;
+};
+/// Solid cylinder between the centres of its end faces.
+struct Cylinder {
+  Vec3 from, to;
+  double radius;
+};
+struct Ball {
+  Vec3 centre;
+  double radius;
+};
+using Shape = std::variant<Box, Cylinder, Ball>;
+
+/// A block of hexahedra, or what is left of it when `minus` is cut out.
+struct HexahedraSpec {
+  std::array<Vec3, 8> corners;  ///< in VTK's order; `box` in the file is the special case
+  std::array<int, 3> divisions;
+  std::vector<Box> minus;
+  std::string formulation;  ///< "full", "selective-reduced", "one-point"
+  std::string hourglass;    ///< "stiffness", "viscous"; for "one-point"
+  double hourglass_coefficient;
+};
+
+/// Flush cubic packing in the union of boxes minus shapes.
+struct LatticeSpec {
+  std::vector<Box> boxes;
+  std::vector<Shape> minus;
+  double radius;
+  std::string rotary_inertia;  ///< "sphere", "cube"
+};
+
+struct RegionSpec {
+  std::string name, material;
+  std::variant<HexahedraSpec, LatticeSpec> shape;
+  Source source;
+};
+
+/// Which nodes and particles: every condition must hold. Equal ends make a plane.
+struct Where {
+  struct Interval {
+    double low, high;
+    bool plane() const { return low == high; }
+  };
+  std::array<std::optional<Interval>, 3> axis;
+  std::optional<std::string> region;
+  Source source;
+};
+
+struct SupportSpec {
+  Where where;
+  std::array<bool, 6> fixed{};                    ///< x y z rx ry rz
+  std::array<std::optional<double>, 6> displacement;  ///< × curve(t)
+  std::array<std::optional<double>, 6> velocity;      ///< × curve(t) (1 where no curve is named)
+  std::string curve;                              ///< name, or empty
+  Source source;
+};
+
+struct LoadSpec {
+  enum class Kind { total_force, traction, gravity } kind;
+  Vec3 value;
+  std::optional<Where> where;  ///< gravity acts on everything
+  std::string curve;           ///< name, or empty: constant 1
+  Source source;
+};
+
+/// Motion at time 0: v = velocity + spin × (X − about); particles and ghosts spin too.
+struct InitialSpec {
+  Where where;
+  Vec3 velocity, spin, about;
+  Source source;
+};
+
+/// Piecewise linear in time; constant beyond its ends.
+struct Curve {
+  std::vector<std::array<double, 2>> points;
+};
+
+struct ProbeSpec {
+  std::string name;
+  Where where;
+  std::string quantity;   ///< "displacement", "velocity", "rotation", "reaction"
+  std::string component;  ///< "x", "y", "z", "magnitude"
+  std::string reduce;     ///< "mean", "min", "max", "sum"
+  Source source;
+};
+
+struct AnalysisSpec {
+  std::string type;           ///< "dynamic", "quasi-static"
+  double duration = 0;        ///< dynamic: the end; quasi-static: give up then (0: after max_steps)
+  double tolerance = 1e-6;    ///< quasi-static: residual / load
+  long max_steps = 10'000'000;
+  double safety = 0.9;        ///< time step / safe bound
+  std::optional<double> time_step;  ///< overrides the above; must not exceed the bound
+  double damping = 0;         ///< α of f = −α m v, 1/time; dynamic only
+  double balance_tolerance = 0.05;  ///< stop when the energy balance leaves this share of the energies' sum
+  Source source;
+};
+
+struct OutputSpec {
+  std::optional<double> fields_every, history_every;  ///< in time; absent: fields only at the end, history 1000 rows
+  bool compress = true;
+};
+
+struct Case {
+  std::string file, title;
+  Units units;
+  std::map<std::string, Material> materials;
+  std::vector<RegionSpec> regions;          ///< in file order
+  std::string coupling = "ghost-particles";  ///< or "none"
+  std::string rotation = "one-step-back";    ///< or "none"
+  Source coupling_source;
+  std::map<std::string, Curve> curves;
+  std::vector<SupportSpec> supports;
+  std::vector<LoadSpec> loads;
+  std::vector<InitialSpec> initial;
+  AnalysisSpec analysis;
+  std::vector<ProbeSpec> probes;
+  OutputSpec output;
+  std::string toml;  ///< the complete case as run, defaults filled in, as TOML
+};
+
+}  // namespace geist

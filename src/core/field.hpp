@@ -1,0 +1,63 @@
+// Field: N components of one quantity at n places, structure of arrays, zero to begin with.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "core/parallel.hpp"
+#include "core/vec.hpp"
+
+namespace geist {
+
+/// f[c][i] is component c at place i. Each component is aligned to 64 bytes and has `guard` readable and writable
+/// places before the first and after the last, so that a stencil may look over the edge; they stay zero.
+/// Components are staggered so that they do not compete for the same cache sets.
+template <int N>
+class Field {
+ public:
+  Field() = default;
+  explicit Field(std::size_t n, std::size_t guard = 0) : size_(n) {
+    const std::size_t lead = round_up(guard), stagger = 8 * 9;
+    const std::size_t stride = lead + round_up(n + guard) + stagger;
+    const std::size_t bytes = round_up_to(N * stride * sizeof(double), 64);
+    data_.reset(static_cast<double*>(std::aligned_alloc(64, bytes)));
+    if (!data_) throw std::bad_alloc();
+    double* const base = data_.get();
+    for_each(N * stride, [=](std::size_t i) { base[i] = 0; }, 1 << 14);
+    for (int c = 0; c < N; ++c) component_[c] = base + c * stride + lead;
+  }
+  Field(const Field& other) = delete;
+  Field& operator=(const Field& other) = delete;
+  Field(Field&&) noexcept = default;
+  Field& operator=(Field&&) noexcept = default;
+
+  std::size_t size() const { return size_; }
+  double* operator[](int c) { return component_[c]; }
+  const double* operator[](int c) const { return component_[c]; }
+
+  /// The three components from `first` on at place i.
+  Vec3 vector(std::size_t i, int first = 0) const {
+    return {component_[first][i], component_[first + 1][i], component_[first + 2][i]};
+  }
+  void set(std::size_t i, Vec3 a, int first = 0) {
+    for (int c = 0; c < 3; ++c) component_[first + c][i] = a[c];
+  }
+  void add(std::size_t i, Vec3 a, int first = 0) {
+    for (int c = 0; c < 3; ++c) component_[first + c][i] += a[c];
+  }
+
+ private:
+  static constexpr std::size_t round_up_to(std::size_t n, std::size_t m) { return (n + m - 1) / m * m; }
+  static constexpr std::size_t round_up(std::size_t n) { return round_up_to(n, 8); }
+  struct Free {
+    void operator()(double* p) const { std::free(p); }
+  };
+  std::unique_ptr<double, Free> data_;
+  std::array<double*, N> component_{};
+  std::size_t size_ = 0;
+};
+
+}  // namespace geist

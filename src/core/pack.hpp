@@ -1,0 +1,72 @@
+// Pack: eight doubles that are computed with together, the unit of every vectorised kernel.
+//
+// A kernel is a template over T; with T = double it is the scalar formula, with T = Pack eight sites or elements at
+// once. Multiply-adds are written fma(a, b, c) by name and rounded once on every machine; the compiler may not form
+// its own (-ffp-contract=off). So the bits of a result do not depend on the instruction set, only the speed does.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__AVX512F__) || defined(__FMA__)
+#include <immintrin.h>
+#endif
+
+namespace geist {
+
+inline constexpr int lanes = 8;
+
+using Pack = double __attribute__((vector_size(lanes * sizeof(double))));
+using PackInt = std::int64_t __attribute__((vector_size(lanes * sizeof(std::int64_t))));
+
+#define GEIST_INLINE inline __attribute__((always_inline))
+
+GEIST_INLINE Pack load(const double* p) {
+  Pack a;
+  std::memcpy(&a, p, sizeof a);
+  return a;
+}
+GEIST_INLINE void store(double* p, Pack a) { std::memcpy(p, &a, sizeof a); }
+
+GEIST_INLINE Pack broadcast(double s) { return Pack{s, s, s, s, s, s, s, s}; }
+
+/// a·b + c, rounded once.
+GEIST_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
+GEIST_INLINE Pack fma(Pack a, Pack b, Pack c) {
+#if defined(__AVX512F__)
+  return (Pack)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+#elif defined(__FMA__)
+  union Halves {
+    Pack whole;
+    __m256d half[2];
+  };
+  const Halves p{a}, q{b}, s{c};
+  Halves r;
+  r.half[0] = _mm256_fmadd_pd(p.half[0], q.half[0], s.half[0]);
+  r.half[1] = _mm256_fmadd_pd(p.half[1], q.half[1], s.half[1]);
+  return r.whole;
+#else
+  Pack r;
+  for (int l = 0; l < lanes; ++l) r[l] = __builtin_fma(a[l], b[l], c[l]);
+  return r;
+#endif
+}
+GEIST_INLINE Pack fma(double a, Pack b, Pack c) { return fma(broadcast(a), b, c); }
+GEIST_INLINE Pack fma(Pack a, double b, Pack c) { return fma(a, broadcast(b), c); }
+
+/// The value of type T (double or Pack) all of whose lanes are s.
+template <class T>
+GEIST_INLINE T constant(double s) {
+  if constexpr (sizeof(T) == sizeof(double))
+    return s;
+  else
+    return broadcast(s);
+}
+
+/// Sum of the lanes in a fixed order.
+GEIST_INLINE double sum_lanes(double a) { return a; }
+GEIST_INLINE double sum_lanes(Pack a) {
+  return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+}
+
+}  // namespace geist

@@ -1,0 +1,71 @@
+// Mesh: the nodes and hexahedra of all continuum regions. Arrays, no physics.
+//
+// Hexahedra are kept in blocks of eight (the lanes of a Pack); every region begins a new block. A block that is not
+// full repeats its last element in the lanes left over, and nobody reads what is computed there.
+//
+// Corners are numbered as in (8), Table 1 of the journal paper and VTK_HEXAHEDRON:
+//
+//        7-------6        ζ
+//       /|      /|        |  η
+//      4-------5 |        | /
+//      | 3-----|-2        |/
+//      |/      |/         +---- ξ
+//      0-------1
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/field.hpp"
+#include "core/pack.hpp"
+#include "model/material.hpp"
+
+namespace geist {
+
+/// Eight hexahedra side by side: node[corner][lane].
+struct HexBlock {
+  std::array<std::array<std::int32_t, lanes>, 8> node;
+};
+
+/// A region of hexahedra: elements [first, first + count), blocks [first_block, first_block + blocks()).
+struct HexRegion {
+  std::string name;
+  Material material;
+  std::string formulation;        ///< name in the list of fe/formulations.hpp
+  double hourglass_coefficient = 0;  ///< dimensionless, for formulations with hourglass control
+  std::size_t first = 0, count = 0;  ///< elements
+  std::size_t first_block = 0;
+  std::size_t blocks() const { return (count + lanes - 1) / lanes; }
+};
+
+struct Mesh {
+  // What it is made of
+  std::vector<Vec3> points;                          ///< reference positions X_I, by node
+  std::vector<std::array<std::int32_t, 8>> elements;  ///< corner nodes, by element, region after region
+  std::vector<HexRegion> regions;
+  std::vector<HexBlock> blocks;
+
+  // Where node I finds the forces of its element corners: corner_force[gather[k] + 8 c], k in
+  // [gather_begin[I], gather_begin[I + 1]), component c. In order of elements.
+  std::vector<std::int32_t> gather_begin, gather;
+
+  // State (n = node): displacement u^n, velocity v^{n+1/2}, and what is computed from them
+  Field<3> X;                        ///< reference positions again, by component, for kernels
+  Field<3> u, v;                     ///< displacement, velocity (at the half step)
+  Field<3> v_before;                 ///< velocity half a step before u's time; valid on observed steps only
+  Field<3> f;                        ///< total force: internal, coupling and applied
+  std::vector<double> mass;          ///< lumped, by node
+  std::vector<double> corner_force;  ///< [block][corner][component][lane]
+
+  std::size_t nodes() const { return points.size(); }
+};
+
+/// Places of block b, corner a, component 0, lane l in corner_force; component c is 8 c further on.
+constexpr std::size_t corner_slot(std::size_t b, int a, int l) { return (b * 8 + a) * 3 * lanes + l; }
+
+/// Make the blocks, the gather lists and the (zero) state of a mesh whose points, elements and regions are set.
+void finish(Mesh& mesh);
+
+}  // namespace geist
