@@ -8,33 +8,22 @@
 #include <vector>
 
 #include "core/vec.hpp"
+#include "geometry/shapes.hpp"
 #include "model/material.hpp"
+#include "solver/curve.hpp"
 
 namespace geist {
 
 /// Place of something in the case file, for messages.
 struct Source {
   int line = 0, column = 0;
-  std::string text;  ///< the offending text: a key, a value, or the name of a table
+  std::string text;    ///< the offending text: a key, a value, or the name of a table
+  std::string origin;  ///< the --set option that it, or something in it, comes from; else empty
 };
 
 struct Units {
   std::string length, mass, time;
 };
-
-struct Box {
-  Vec3 low, high;
-};
-/// Solid cylinder between the centres of its end faces.
-struct Cylinder {
-  Vec3 from, to;
-  double radius;
-};
-struct Ball {
-  Vec3 centre;
-  double radius;
-};
-using Shape = std::variant<Box, Cylinder, Ball>;
 
 /// A block of hexahedra, or what is left of it when `minus` is cut out.
 struct HexahedraSpec {
@@ -73,10 +62,10 @@ struct Where {
 
 struct SupportSpec {
   Where where;
-  std::array<bool, 6> fixed{};                    ///< x y z rx ry rz
+  std::array<bool, 6> fixed{};                        ///< x y z rx ry rz
   std::array<std::optional<double>, 6> displacement;  ///< × curve(t)
   std::array<std::optional<double>, 6> velocity;      ///< × curve(t) (1 where no curve is named)
-  std::string curve;                              ///< name, or empty
+  std::string curve;                                  ///< name, or empty
   Source source;
 };
 
@@ -95,11 +84,6 @@ struct InitialSpec {
   Source source;
 };
 
-/// Piecewise linear in time; constant beyond its ends.
-struct Curve {
-  std::vector<std::array<double, 2>> points;
-};
-
 struct ProbeSpec {
   std::string name;
   Where where;
@@ -110,19 +94,20 @@ struct ProbeSpec {
 };
 
 struct AnalysisSpec {
-  std::string type;           ///< "dynamic", "quasi-static"
-  double duration = 0;        ///< dynamic: the end; quasi-static: give up then (0: after max_steps)
-  double tolerance = 1e-6;    ///< quasi-static: residual / load
+  std::string type;         ///< "dynamic", "quasi-static"
+  double duration = 0;      ///< dynamic: the end; quasi-static: give up then (0: after max_steps)
+  double tolerance = 1e-6;  ///< quasi-static: residual / load
   long max_steps = 10'000'000;
-  double safety = 0.9;        ///< time step / safe bound
+  double safety = 0.9;              ///< time step / safe bound
   std::optional<double> time_step;  ///< overrides the above; must not exceed the bound
-  double damping = 0;         ///< α of f = −α m v, 1/time; dynamic only
+  double damping = 0;               ///< α of f = −α m v, 1/time; dynamic only
   double balance_tolerance = 0.05;  ///< stop when the energy balance leaves this share of the energies' sum
   Source source;
 };
 
 struct OutputSpec {
-  std::optional<double> fields_every, history_every;  ///< in time; absent: fields only at the end, history 1000 rows
+  std::optional<double> fields_every,
+      history_every;  ///< in time; absent: fields only at the end, history 1000 rows
   bool compress = true;
 };
 
@@ -130,7 +115,7 @@ struct Case {
   std::string file, title;
   Units units;
   std::map<std::string, Material> materials;
-  std::vector<RegionSpec> regions;          ///< in file order
+  std::vector<RegionSpec> regions;           ///< in file order
   std::string coupling = "ghost-particles";  ///< or "none"
   std::string rotation = "one-step-back";    ///< or "none"
   Source coupling_source;
@@ -141,7 +126,8 @@ struct Case {
   AnalysisSpec analysis;
   std::vector<ProbeSpec> probes;
   OutputSpec output;
-  std::string toml;  ///< the complete case as run, defaults filled in, as TOML
+  std::string toml;      ///< the complete case as run, defaults filled in, as TOML
+  std::string original;  ///< the file as read, for messages
 };
 
 }  // namespace geist

@@ -12,9 +12,9 @@
 
 namespace geist {
 
-/// f[c][i] is component c at place i. Each component is aligned to 64 bytes and has `guard` readable and writable
-/// places before the first and after the last, so that a stencil may look over the edge; they stay zero.
-/// Components are staggered so that they do not compete for the same cache sets.
+/// f[c][i] is component c at place i. Each component is aligned to 64 bytes and has `guard` readable and
+/// writable places before the first and after the last, so that a stencil may look over the edge; they stay
+/// zero. Components are staggered so that they do not compete for the same cache sets.
 template <int N>
 class Field {
  public:
@@ -26,7 +26,8 @@ class Field {
     data_.reset(static_cast<double*>(std::aligned_alloc(64, bytes)));
     if (!data_) throw std::bad_alloc();
     double* const base = data_.get();
-    for_each(N * stride, [=](std::size_t i) { base[i] = 0; }, 1 << 14);
+    for_each(
+        N * stride, [=](std::size_t i) { base[i] = 0; }, 1 << 14);
     for (int c = 0; c < N; ++c) component_[c] = base + c * stride + lead;
   }
   Field(const Field& other) = delete;

@@ -1,8 +1,9 @@
 // Pack: eight doubles that are computed with together, the unit of every vectorised kernel.
 //
-// A kernel is a template over T; with T = double it is the scalar formula, with T = Pack eight sites or elements at
-// once. Multiply-adds are written fma(a, b, c) by name and rounded once on every machine; the compiler may not form
-// its own (-ffp-contract=off). So the bits of a result do not depend on the instruction set, only the speed does.
+// A kernel is a template over T; with T = double it is the scalar formula, with T = Pack eight sites or
+// elements at once. Multiply-adds are written fma(a, b, c) by name and rounded once on every machine; the
+// compiler may not form its own (-ffp-contract=off). So the bits of a result do not depend on the instruction
+// set, only the speed does.
 #pragma once
 #include <cmath>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Loops over threads. The only file that names OpenMP.
 //
-// Results never depend on the number of threads: for_each runs independent iterations, and sum adds fixed blocks in
-// index order. Functors are taken by value and must not own containers, so that another machine's back end can
-// take the same ones.
+// Results never depend on the number of threads: for_each runs independent iterations, and sum adds fixed
+// blocks in index order. Functors are taken by value and must not own containers, so that another machine's
+// back end can take the same ones.
 #pragma once
 #include <omp.h>
 #include <pthread.h>
@@ -29,8 +29,9 @@ inline std::vector<int> allowed_processors() {
   return list;
 }
 
-/// Use n threads (n ≤ 0: one per allowed processor), each bound to one processor, beginning with the one we run on.
-/// Whoever sets OMP_PROC_BIND, or asks for more threads than processors, has bound them already or does not want it.
+/// Use n threads (n ≤ 0: one per allowed processor), each bound to one processor, beginning with the one we
+/// run on. Whoever sets OMP_PROC_BIND, or asks for more threads than processors, has bound them already or
+/// does not want it.
 inline void set_threads(int n) {
   const std::vector<int> processors = allowed_processors();
   const int available = static_cast<int>(processors.size());
@@ -47,7 +48,8 @@ inline void set_threads(int n) {
   }
 }
 
-/// f(i) for i in [0, n), in contiguous shares. Fewer than `grain` iterations are not worth waking the threads.
+/// f(i) for i in [0, n), in contiguous shares. Fewer than `grain` iterations are not worth waking the
+/// threads.
 template <class F>
 void for_each(std::size_t n, F f, std::size_t grain = 1) {
 #pragma omp parallel for schedule(static) firstprivate(f) if (n > grain)

@@ -46,8 +46,12 @@ void list_sites(Lattice& lattice, const std::vector<std::size_t>& particles) {
     }
   for (std::size_t r = 0; r < grid.rows(); ++r) lattice.listed_begin[r + 1] += lattice.listed_begin[r];
   lattice.listed_force = Field<6>(lattice.listed.size());
+  lattice.listed_held.assign(lattice.listed.size(), 0);
   lattice.ghost_slot.clear();
-  for (const Ghost& ghost : lattice.ghosts) lattice.ghost_slot.push_back(listed_slot(lattice, ghost.site));
+  for (const Ghost& ghost : lattice.ghosts) {
+    lattice.ghost_slot.push_back(listed_slot(lattice, ghost.site));
+    lattice.listed_held[lattice.ghost_slot.back()] = 0b000111;  // follows its hexahedron
+  }
 }
 
 std::int32_t listed_slot(const Lattice& lattice, std::size_t s) {

@@ -1,8 +1,8 @@
 // Lattice: the sites of one discrete region on a grid of pitch 2r. Arrays, no physics.
 //
-// Sites lie in grid order, x fastest, rows padded to whole Packs; a neighbour is a constant offset, so no list of
-// neighbours or bonds exists. A site is empty, a particle, or a ghost; the grid is just large enough to hold the
-// particles and their ghosts. What differs from site to site is one word (see Site below).
+// Sites lie in grid order, x fastest, rows padded to whole Packs; a neighbour is a constant offset, so no
+// list of neighbours or bonds exists. A site is empty, a particle, or a ghost; the grid is just large enough
+// to hold the particles and their ghosts. What differs from site to site is one word (see Site below).
 #pragma once
 #include <array>
 #include <cstddef>
@@ -18,9 +18,24 @@
 namespace geist {
 
 /// The 18 neighbours in steps of the pitch: 6 of group 1, 12 of group 2. Direction d is opposite to 17 − d.
-inline constexpr std::array<std::array<int, 3>, 18> directions{{
-    {0, -1, -1}, {-1, 0, -1}, {0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {-1, -1, 0}, {0, -1, 0}, {1, -1, 0}, {-1, 0, 0},
-    {1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}, {0, -1, 1}, {-1, 0, 1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
+inline constexpr std::array<std::array<int, 3>, 18> directions{{{0, -1, -1},
+                                                                {-1, 0, -1},
+                                                                {0, 0, -1},
+                                                                {1, 0, -1},
+                                                                {0, 1, -1},
+                                                                {-1, -1, 0},
+                                                                {0, -1, 0},
+                                                                {1, -1, 0},
+                                                                {-1, 0, 0},
+                                                                {1, 0, 0},
+                                                                {-1, 1, 0},
+                                                                {0, 1, 0},
+                                                                {1, 1, 0},
+                                                                {0, -1, 1},
+                                                                {-1, 0, 1},
+                                                                {0, 0, 1},
+                                                                {1, 0, 1},
+                                                                {0, 1, 1}}};
 inline constexpr int opposite(int d) { return 17 - d; }
 
 /// A site's word: bits 0–17 say which of its bonds exist, then what the site is.
@@ -84,7 +99,8 @@ struct Lattice {
 
   std::vector<std::uint32_t> word;  ///< one for each site
 
-  // State: components 0–2 of motion are the displacement u, 3–5 the rotation θ (radians); of velocity v and ω.
+  // State: components 0–2 of motion are the displacement u, 3–5 the rotation θ (radians); of velocity v and
+  // ω.
   Field<6> motion, velocity;
   Field<6> velocity_before;  ///< half a step before motion's time; valid on observed steps only
 
@@ -93,6 +109,9 @@ struct Lattice {
   std::vector<std::size_t> listed;
   std::vector<std::int32_t> listed_begin;
   Field<6> listed_force;
+  std::vector<std::uint8_t> listed_held;  ///< bit c is set if component c is not for the kick: held, or follows
+
+  std::vector<double> row_sums;  ///< scratch of the lattice kernel, by row
 
   std::vector<Ghost> ghosts;             ///< in order of sites
   std::vector<std::int32_t> ghost_slot;  ///< ghost g's place in listed

@@ -4,7 +4,8 @@
 
 namespace geist {
 
-/// Isotropic elastic material in the case's units: density (mass/length³), Young's modulus (stress), Poisson's ratio.
+/// Isotropic elastic material in the case's units: density (mass/length³), Young's modulus (stress),
+/// Poisson's ratio.
 struct Material {
   std::string name;
   double density = 0, young = 0, poisson = 0;

@@ -36,9 +36,8 @@ void make_gather_lists(Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.nodes(); ++i) mesh.gather_begin[i + 1] += mesh.gather_begin[i];
   mesh.gather.resize(mesh.gather_begin.back());
   std::vector<std::int32_t> next(mesh.gather_begin.begin(), mesh.gather_begin.end() - 1);
-  visit_corners(mesh, [&](int node, std::size_t slot) {
-    mesh.gather[next[node]++] = static_cast<std::int32_t>(slot);
-  });
+  visit_corners(
+      mesh, [&](int node, std::size_t slot) { mesh.gather[next[node]++] = static_cast<std::int32_t>(slot); });
 }
 
 }  // namespace
@@ -51,6 +50,7 @@ void finish(Mesh& mesh) {
   mesh.f = Field<3>(n);
   for (std::size_t i = 0; i < n; ++i) mesh.X.set(i, mesh.points[i]);
   mesh.mass.assign(n, 0.0);
+  mesh.held.assign(n, 0);
   mesh.corner_force.assign(mesh.blocks.size() * 8 * 3 * lanes, 0.0);
 }
 

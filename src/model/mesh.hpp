@@ -1,7 +1,7 @@
 // Mesh: the nodes and hexahedra of all continuum regions. Arrays, no physics.
 //
-// Hexahedra are kept in blocks of eight (the lanes of a Pack); every region begins a new block. A block that is not
-// full repeats its last element in the lanes left over, and nobody reads what is computed there.
+// Hexahedra are kept in blocks of eight (the lanes of a Pack); every region begins a new block. A block that
+// is not full repeats its last element in the lanes left over, and nobody reads what is computed there.
 //
 // Corners are numbered as in (8), Table 1 of the journal paper and VTK_HEXAHEDRON:
 //
@@ -33,7 +33,7 @@ struct HexBlock {
 struct HexRegion {
   std::string name;
   Material material;
-  std::string formulation;        ///< name in the list of fe/formulations.hpp
+  std::string formulation;           ///< name in the list of fe/formulations.hpp
   double hourglass_coefficient = 0;  ///< dimensionless, for formulations with hourglass control
   std::size_t first = 0, count = 0;  ///< elements
   std::size_t first_block = 0;
@@ -42,7 +42,7 @@ struct HexRegion {
 
 struct Mesh {
   // What it is made of
-  std::vector<Vec3> points;                          ///< reference positions X_I, by node
+  std::vector<Vec3> points;                           ///< reference positions X_I, by node
   std::vector<std::array<std::int32_t, 8>> elements;  ///< corner nodes, by element, region after region
   std::vector<HexRegion> regions;
   std::vector<HexBlock> blocks;
@@ -57,6 +57,7 @@ struct Mesh {
   Field<3> v_before;                 ///< velocity half a step before u's time; valid on observed steps only
   Field<3> f;                        ///< total force: internal, coupling and applied
   std::vector<double> mass;          ///< lumped, by node
+  std::vector<std::uint8_t> held;    ///< by node: bit c is set if a support prescribes component c
   std::vector<double> corner_force;  ///< [block][corner][component][lane]
 
   std::size_t nodes() const { return points.size(); }
@@ -65,7 +66,8 @@ struct Mesh {
 /// Places of block b, corner a, component 0, lane l in corner_force; component c is 8 c further on.
 constexpr std::size_t corner_slot(std::size_t b, int a, int l) { return (b * 8 + a) * 3 * lanes + l; }
 
-/// Make the blocks, the gather lists and the (zero) state of a mesh whose points, elements and regions are set.
+/// Make the blocks, the gather lists and the (zero) state of a mesh whose points, elements and regions are
+/// set.
 void finish(Mesh& mesh);
 
 }  // namespace geist

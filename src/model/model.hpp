@@ -10,8 +10,8 @@ namespace geist {
 struct Model {
   Mesh mesh;
   std::vector<Lattice> lattices;
-  double time = 0;      ///< t^n, the time of displacements and forces
-  long step = 0;        ///< n
+  double time = 0;  ///< t^n, the time of displacements and forces
+  long step = 0;    ///< n
 };
 
 }  // namespace geist

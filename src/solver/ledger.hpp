@@ -7,18 +7,18 @@ namespace geist {
 struct Ledger {
   // Energy now
   double kinetic_translation = 0;
-  double kinetic_rotation = 0;   ///< of particles and ghosts
+  double kinetic_rotation = 0;  ///< of particles and ghosts
   double strain_elements = 0;
-  double strain_bonds = 0;       ///< particle–particle
-  double strain_coupling = 0;    ///< particle–ghost
-  double hourglass = 0;          ///< stored by stiffness-type control
+  double strain_bonds = 0;     ///< particle–particle
+  double strain_coupling = 0;  ///< particle–ghost
+  double hourglass = 0;        ///< stored by stiffness-type control
   // Energy since the start
-  double damping = 0;            ///< taken out by damping (mass-proportional, viscous hourglass control)
-  double external = 0;           ///< work of loads and moving supports
-  double initial = 0;            ///< energy at time 0
+  double damping = 0;   ///< taken out by damping (mass-proportional, viscous hourglass control)
+  double external = 0;  ///< work of loads and moving supports
+  double initial = 0;   ///< energy at time 0
   // Momenta
-  Vec3 linear;                   ///< Σ m v
-  Vec3 angular;                  ///< Σ X × m v + I ω about the origin, reference positions, ghost spin included
+  Vec3 linear;   ///< Σ m v
+  Vec3 angular;  ///< Σ X × m v + I ω about the origin, reference positions, ghost spin included
 
   double kinetic() const { return kinetic_translation + kinetic_rotation; }
   double internal() const { return strain_elements + strain_bonds + strain_coupling + hourglass; }

@@ -1,0 +1,48 @@
+// Ghost particles: where they are, how they follow their hexahedra, and how they react on the nodes.
+//
+// A ghost is an empty lattice site within a bond's reach of a particle that lies inside a hexahedron; on a
+// flat interface these are the mirror images (6) of the boundary particles, one more layer of the same
+// packing. It keeps the natural coordinates ξ that it has in its hexahedron (7)–(12).
+//
+//   u_g = Σ N_I(ξ) u_I   (21, integrated)        f_I += N_I(ξ) f_g   (14)
+//
+// Its spin ("one-step back", (15)(24)) is a degree of freedom of the lattice and is advanced there.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "geometry/locator.hpp"
+#include "model/model.hpp"
+
+namespace geist::coupling {
+
+/// Make every empty site within a bond's reach of a particle that lies inside a hexahedron a ghost of
+/// `lattice`. The grid must have a layer of empty sites around the particles.
+void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator);
+
+/// Displacement of all ghosts from that of the nodes.
+void follow(Lattice& lattice, const Mesh& mesh);
+
+/// The transpose of follow: which ghost forces act on which nodes, in fixed order.
+class Reactions {
+ public:
+  Reactions() = default;
+  explicit Reactions(const Model& model);
+
+  /// mesh.f += Σ N_I f_g over all ghosts of all lattices (14).
+  void add(Model& model) const;
+
+  /// Mass that the ghosts would bring to node I if they had that of a particle: Σ N_I m_d (for the time
+  /// step's bound).
+  static std::vector<double> virtual_masses(const Model& model);
+
+ private:
+  struct Entry {
+    std::int32_t lattice, slot;
+    double N;
+  };
+  std::vector<std::int32_t> nodes_, begin_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace geist::coupling

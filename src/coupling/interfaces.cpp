@@ -1,0 +1,164 @@
+#include "coupling/interfaces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/block.hpp"
+#include "geometry/hex8.hpp"
+
+namespace geist::coupling {
+namespace {
+
+std::string place(Vec3 p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
+
+const HexRegion& region_of(const Mesh& mesh, std::int32_t element) {
+  const auto holds = [element](const HexRegion& r) {
+    return static_cast<std::size_t>(element) >= r.first &&
+           static_cast<std::size_t>(element) < r.first + r.count;
+  };
+  return *std::find_if(mesh.regions.begin(), mesh.regions.end(), holds);
+}
+
+/// Whether p lies in a cell of the lattice's particles.
+bool in_cell(const Lattice& lattice, Vec3 p) {
+  const Grid& grid = lattice.grid;
+  const auto at = [&](int c) { return static_cast<int>(std::lround((p[c] - grid.origin[c]) / grid.pitch)); };
+  const int i = at(0), j = at(1), k = at(2);
+  return grid.contains(i, j, k) && lattice.is(grid.index(i, j, k), site::particle);
+}
+
+/// Who else is at p: the name of a region of hexahedra or of another lattice, or nothing.
+struct Surroundings {
+  const Model& model;
+  const Locator& locator;
+  const Lattice* self;
+
+  std::string lattice_at(Vec3 p) const {
+    for (const Lattice& other : model.lattices)
+      if (&other != self && in_cell(other, p)) return other.name;
+    return {};
+  }
+  std::string hexahedra_at(Vec3 p) const {
+    const auto found = locator.find(p, 0);
+    return found ? region_of(model.mesh, found->element).name : std::string();
+  }
+  std::string at(Vec3 p) const {
+    const std::string name = hexahedra_at(p);
+    return name.empty() ? lattice_at(p) : name;
+  }
+};
+
+/// Overlap: a point well inside the particle's cell belongs to somebody else.
+std::optional<Clash> overlap(const Lattice& lattice, Vec3 x, const Surroundings& around) {
+  for (const double a : {-0.999, 0.0, 0.999})
+    for (const double b : {-0.999, 0.0, 0.999})
+      for (const double c : {-0.999, 0.0, 0.999}) {
+        const Vec3 p = x + lattice.radius() * Vec3{a, b, c};
+        if (const std::string other = around.at(p); !other.empty())
+          return Clash{lattice.name, other,
+                       fmt::format("regions '{}' and '{}' overlap at {}", lattice.name, other, place(p))};
+      }
+  return std::nullopt;
+}
+
+/// Across the face of the cell at x towards `step`, which is empty: nothing, or flush hexahedra with a ghost.
+std::optional<Clash> across_face(const Lattice& lattice, Vec3 x, Vec3 step, const Surroundings& around) {
+  const double r = lattice.radius();
+  const Vec3 side1{step.y, step.z, step.x}, side2{step.z, step.x, step.y};
+  for (const double a : {-0.9, 0.0, 0.9})
+    for (const double b : {-0.9, 0.0, 0.9}) {
+      const Vec3 on_face = x + r * step + (r * a) * side1 + (r * b) * side2;
+      const auto beyond = [&](double distance) { return on_face + (distance * r) * step; };
+      if (const std::string other = around.lattice_at(beyond(1e-3)); !other.empty())
+        return Clash{
+            lattice.name, other,
+            fmt::format("lattice regions '{}' and '{}' touch at {}, but would not be bonded there; make "
+                        "one region of several boxes",
+                        lattice.name, other, place(on_face))};
+      if (const std::string flush = around.hexahedra_at(beyond(1e-3)); !flush.empty()) {
+        if (a == 0 && b == 0 && around.hexahedra_at(beyond(1)).empty())
+          return Clash{
+              lattice.name, flush,
+              fmt::format("region '{}' is thinner than a particle's radius behind the interface at {}, "
+                          "so it holds no ghost for region '{}'",
+                          flush, place(on_face), lattice.name)};
+        continue;
+      }
+      for (const double distance : {0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 1.95})
+        if (const std::string other = around.at(beyond(distance)); !other.empty())
+          return Clash{
+              lattice.name, other,
+              fmt::format("regions '{}' and '{}' leave a gap thinner than a particle (2r = {:.6g}) at {}",
+                          lattice.name, other, 2 * r, place(on_face))};
+    }
+  return std::nullopt;
+}
+
+std::optional<Clash> around_particle(const Lattice& lattice, std::size_t s, const Surroundings& around) {
+  const Grid& grid = lattice.grid;
+  const Vec3 x = grid.centre(s);
+  const auto [i, j, k] = grid.ijk(s);
+  bool surface = false;
+  for (const auto& [a, b, c] : directions) {
+    if (std::abs(a) + std::abs(b) + std::abs(c) != 1) continue;
+    if (grid.contains(i + a, j + b, k + c) && lattice.is(grid.index(i + a, j + b, k + c), site::particle))
+      continue;
+    surface = true;
+    const Vec3 step{double(a), double(b), double(c)};
+    if (auto clash = across_face(lattice, x, step, around)) return clash;
+  }
+  return surface ? overlap(lattice, x, around) : std::nullopt;
+}
+
+/// A node of a region's surface that lies in a hexahedron which it is no corner of.
+std::optional<Clash> between_hexahedra(const Model& model, const Locator& locator) {
+  const Mesh& mesh = model.mesh;
+  for (const Facet& facet : exterior_facets(mesh))
+    for (const std::int32_t node : facet.node) {
+      const Vec3 p = mesh.points[node];
+      const auto found = locator.find(p, -1e-6, node);
+      const auto touching = found ? found : locator.find(p, 1e-6, node);
+      if (!touching) continue;
+      const std::string a = region_of(mesh, facet.element).name, b = region_of(mesh, touching->element).name;
+      return Clash{
+          a, b,
+          found ? fmt::format("regions '{}' and '{}' overlap at {}", a, b, place(p))
+                : fmt::format("regions '{}' and '{}' touch at {} without sharing nodes; their divisions "
+                              "must match there",
+                              a, b, place(p))};
+    }
+  return std::nullopt;
+}
+
+/// A node of the mesh that lies well inside a particle's cell (hexahedra smaller than the points tested
+/// above).
+std::optional<Clash> nodes_in_cells(const Model& model) {
+  for (const Lattice& lattice : model.lattices)
+    for (std::size_t e = 0; e < model.mesh.elements.size(); ++e) {
+      const Vec3 p = hex8::map(hex8::corners(model.mesh, e), {0, 0, 0});
+      if (!in_cell(lattice, p)) continue;
+      const std::string name = region_of(model.mesh, static_cast<std::int32_t>(e)).name;
+      return Clash{lattice.name, name,
+                   fmt::format("regions '{}' and '{}' overlap at {}", lattice.name, name, place(p))};
+    }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Clash> find_clash(const Model& model, const Locator& locator) {
+  if (auto clash = between_hexahedra(model, locator)) return clash;
+  if (auto clash = nodes_in_cells(model)) return clash;
+  for (const Lattice& lattice : model.lattices) {
+    const Surroundings around{model, locator, &lattice};
+    for (std::size_t s = 0; s < lattice.grid.size(); ++s)
+      if (lattice.is(s, site::particle))
+        if (auto clash = around_particle(lattice, s, around)) return clash;
+  }
+  return std::nullopt;
+}
+
+}  // namespace geist::coupling

@@ -1,0 +1,198 @@
+#include "de/bonds.hpp"
+
+#include <bit>
+
+#include "core/parallel.hpp"
+#include "de/stencil.hpp"
+
+namespace geist::de {
+namespace {
+
+/// What the row kernel reads and writes, as plain pointers and numbers.
+struct RowKernel {
+  MotionView motion;
+  double* velocity[6];
+  double* listed_force[6];
+  const std::uint32_t* word;
+  const std::int32_t* listed_begin;
+  std::ptrdiff_t offset[18];
+  std::size_t stride;
+  ElasticBond law;
+  double r;
+  Kick kick;
+
+  struct Accumulated {
+    Pack across = {}, after = {}, spin_across = {}, spin_after = {};
+  };
+
+  GEIST_INLINE PackInt words(std::size_t s) const {
+    using Words = std::uint32_t __attribute__((vector_size(lanes * sizeof(std::uint32_t))));
+    Words w;
+    __builtin_memcpy(&w, word + s, sizeof w);
+    return __builtin_convertvector(w, PackInt);
+  }
+
+  /// Eight inner particles: every bond exists, all are advanced.
+  GEIST_INLINE void inner(std::size_t s, Accumulated& sums) const {
+    Pack f[6];
+    site_force(motion, s, offset, law, r, AllBonds{}, f);
+    advance(
+        s, f, sums, [](Pack, Pack v) __attribute__((always_inline)) { return v; });
+  }
+
+  /// Eight sites of any kind; returns the next place in listed_force.
+  GEIST_INLINE std::int32_t mixed(std::size_t s, std::int32_t slot, Accumulated& sums) const {
+    const PackInt w = words(s);
+    Pack f[6];
+    site_force(motion, s, offset, law, r, SomeBonds{w}, f);
+    const PackInt free = -((w / site::free) & 1);
+    advance(
+        s, f, sums, [=](Pack before, Pack after) __attribute__((always_inline)) {
+          return (Pack)(((PackInt)after & free) | ((PackInt)before & ~free));
+        });
+    for (int l = 0; l < lanes; ++l) {
+      const bool occupied = word[s + l] & (site::particle | site::ghost);
+      if (!occupied || word[s + l] & site::free) continue;
+      for (int c = 0; c < 6; ++c) listed_force[c][slot] = f[c][l];
+      ++slot;
+    }
+    return slot;
+  }
+
+  /// Kick, select(v⁻, v⁺) being what is kept. Sites that are not advanced add nothing to the sums.
+  template <class Select>
+  GEIST_INLINE void advance(std::size_t s, const Pack (&f)[6], Accumulated& sums, Select select) const {
+    const Pack zero = {};
+    for (int c = 0; c < 6; ++c) {
+      const Pack before = load(velocity[c] + s);
+      const Pack kept = c < 3 ? fma(kick.keep, before, broadcast(kick.gravity[c])) : kick.keep * before;
+      const Pack after = fma(c < 3 ? kick.per_mass : kick.per_inertia, f[c], kept);
+      store(velocity[c] + s, select(before, after));
+      const Pack counted = select(zero, after);
+      Pack& across = c < 3 ? sums.across : sums.spin_across;
+      Pack& square = c < 3 ? sums.after : sums.spin_after;
+      across = fma(before, counted, across);
+      square = fma(counted, counted, square);
+    }
+  }
+
+  KickSums row(std::size_t row) const {
+    Accumulated sums;
+    std::int32_t slot = listed_begin[row];
+    for (std::size_t s = row * stride; s < (row + 1) * stride; s += lanes) {
+      std::uint32_t all = site::inner, any = 0;
+      for (int l = 0; l < lanes; ++l) all &= word[s + l], any |= word[s + l];
+      if (any == 0) continue;
+      if (all == site::inner)
+        inner(s, sums);
+      else
+        slot = mixed(s, slot, sums);
+    }
+    return {sum_lanes(sums.across), sum_lanes(sums.after), sum_lanes(sums.spin_across),
+            sum_lanes(sums.spin_after)};
+  }
+};
+
+RowKernel row_kernel(Lattice& lattice, const Kick& kick) {
+  RowKernel k;
+  k.motion = view(lattice.motion);
+  for (int c = 0; c < 6; ++c) {
+    k.velocity[c] = lattice.velocity[c];
+    k.listed_force[c] = lattice.listed_force[c];
+  }
+  k.word = lattice.word.data();
+  k.listed_begin = lattice.listed_begin.data();
+  for (int d = 0; d < 18; ++d) k.offset[d] = lattice.grid.offset(d);
+  k.stride = lattice.grid.stride();
+  k.law = ElasticBond::from(lattice.material, lattice.radius());
+  k.r = lattice.radius();
+  k.kick = kick;
+  return k;
+}
+
+/// Call visit(d, energy) for the bonds of site s in directions d ≥ `from`.
+template <class F>
+void visit_bonds(const Lattice& lattice, std::size_t s, int from, F visit) {
+  const MotionView x = view(lattice.motion);
+  const ElasticBond law = ElasticBond::from(lattice.material, lattice.radius());
+  [&]<int... D>(std::integer_sequence<int, D...>) {
+    ((D >= from && (lattice.word[s] >> D & 1)
+          ? visit(D, bond_energy<D>(x, s, lattice.grid.offset(D), law, lattice.radius()))
+          : void()),
+     ...);
+  }
+  (std::make_integer_sequence<int, 18>{});
+}
+
+constexpr int forward = 9;  // directions 9–17 meet every bond once
+
+}  // namespace
+
+KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick) {
+  const std::size_t rows = lattice.grid.rows();
+  lattice.row_sums.resize(4 * rows);
+  const RowKernel kernel = row_kernel(lattice, kick);
+  double* const sums = lattice.row_sums.data();
+  for_each(
+      rows,
+      [=](std::size_t row) {
+        const KickSums s = kernel.row(row);
+        sums[4 * row] = s.across, sums[4 * row + 1] = s.after;
+        sums[4 * row + 2] = s.spin_across, sums[4 * row + 3] = s.spin_after;
+      },
+      8);
+  KickSums total;
+  for (std::size_t row = 0; row < rows; ++row)
+    total += {sums[4 * row], sums[4 * row + 1], sums[4 * row + 2], sums[4 * row + 3]};
+  return total;
+}
+
+KickSums kick_listed(Lattice& lattice, const Kick& kick) {
+  return sum<KickSums>(lattice.listed.size(), [&lattice, kick](std::size_t slot) {
+    KickSums sums;
+    const std::size_t s = lattice.listed[slot];
+    for (int c = 0; c < 6; ++c) {
+      if (lattice.listed_held[slot] >> c & 1) continue;
+      const double before = lattice.velocity[c][s], f = lattice.listed_force[c][slot];
+      const double kept = c < 3 ? fma(kick.keep, before, kick.gravity[c]) : kick.keep * before;
+      const double after = fma(c < 3 ? kick.per_mass : kick.per_inertia, f, kept);
+      lattice.velocity[c][s] = after;
+      (c < 3 ? sums.across : sums.spin_across) += before * after;
+      (c < 3 ? sums.after : sums.spin_after) += after * after;
+    }
+    return sums;
+  });
+}
+
+BondEnergies energies(const Lattice& lattice) {
+  return sum<BondEnergies>(lattice.grid.size(), [&lattice](std::size_t s) {
+    BondEnergies e;
+    if (!(lattice.word[s] & site::bonds)) return e;
+    visit_bonds(lattice, s, forward, [&](int d, double energy) {
+      const bool coupling = (lattice.word[s] | lattice.word[s + lattice.grid.offset(d)]) & site::ghost;
+      (coupling ? e.coupling : e.bonds) += energy;
+    });
+    return e;
+  });
+}
+
+std::vector<double> site_energies(const Lattice& lattice) {
+  std::vector<double> energy(lattice.grid.size(), 0.0);
+  double* const out = energy.data();
+  for_each(
+      lattice.grid.size(),
+      [&lattice, out](std::size_t s) {
+        if (lattice.word[s] & site::bonds)
+          visit_bonds(lattice, s, 0, [&](int, double e) { out[s] += e / 2; });
+      },
+      1024);
+  return energy;
+}
+
+std::size_t bond_count(const Lattice& lattice) {
+  std::size_t twice = 0;
+  for (const std::uint32_t w : lattice.word) twice += std::popcount(w & site::bonds);
+  return twice / 2;
+}
+
+}  // namespace geist::de

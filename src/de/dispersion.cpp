@@ -1,0 +1,88 @@
+// What the endless lattice does: its fastest vibration and its elastic constants.
+//
+// A plane wave (u, θ) e^{i κ·x} of the endless lattice obeys the 6 × 6 Hermitian eigenproblem D(κ) φ = ω² M
+// φ, where the bond in direction e with arm a = r e has the relative displacement
+//   d = (e^{iβ} − 1) u − (e^{iβ} + 1) θ × a,   β = κ·(2 r e),
+// and D = Σ over the nine directions that meet each bond once of Bᴴ K B, d = B (u, θ).
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "de/bonds.hpp"
+#include "de/elastic_bond.hpp"
+
+namespace geist::de {
+namespace {
+
+using Complex = std::complex<double>;
+using Matrix6 = Eigen::Matrix<Complex, 6, 6>;
+
+/// K of the bond along e in the lattice's axes.
+Eigen::Matrix3d stiffness(const ElasticBond& law, const Eigen::Vector3d& e) {
+  const Eigen::Vector3d n = e.normalized();
+  return law.k_s * Eigen::Matrix3d::Identity() + (law.k_n - law.k_s) * n * n.transpose();
+}
+
+/// a as a matrix: (θ × a) = −[a]× θ.
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+/// Largest ω² of waves with phase advance β = 2 r κ per pitch, each component in [0, π].
+double fastest(const Lattice& lattice, const ElasticBond& law, const Eigen::Vector3d& beta) {
+  const double r = lattice.radius();
+  Matrix6 D = Matrix6::Zero();
+  for (int d = 9; d < 18; ++d) {
+    const Eigen::Vector3d e(directions[d][0], directions[d][1], directions[d][2]);
+    const Complex phase = std::polar(1.0, beta.dot(e));
+    Eigen::Matrix<Complex, 3, 6> B;
+    B.leftCols<3>() = (phase - 1.0) * Eigen::Matrix3cd::Identity();
+    B.rightCols<3>() = (phase + 1.0) * cross_matrix(r * e).cast<Complex>();
+    D += B.adjoint() * stiffness(law, e).cast<Complex>() * B;
+  }
+  Eigen::Matrix<double, 6, 1> scale;
+  scale << Eigen::Vector3d::Constant(1 / std::sqrt(lattice.mass)),
+      Eigen::Vector3d::Constant(1 / std::sqrt(lattice.inertia));
+  const Matrix6 A = scale.cast<Complex>().asDiagonal() * D * scale.cast<Complex>().asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Matrix6>(A, Eigen::EigenvaluesOnly).eigenvalues()(5);
+}
+
+}  // namespace
+
+double largest_frequency_squared(const Lattice& lattice) {
+  const ElasticBond law = ElasticBond::from(lattice.material, lattice.radius());
+  constexpr int n = 12;  // by cubic symmetry 0 ≤ β_x ≤ β_y ≤ β_z ≤ π is all there is
+  double largest = 0;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= i; ++j)
+      for (int k = 0; k <= j; ++k) {
+        const Eigen::Vector3d beta = Eigen::Vector3d(k, j, i) * (M_PI / n);
+        largest = std::max(largest, fastest(lattice, law, beta));
+      }
+  // Between grid points ω² can be higher by at most second order; the maxima found lie on symmetric points.
+  return largest;
+}
+
+Recovered recovered_constants(const Lattice& lattice) {
+  const ElasticBond law = ElasticBond::from(lattice.material, lattice.radius());
+  const double r = lattice.radius(), volume = std::pow(lattice.grid.pitch, 3);
+  const auto energy_density = [&](const Eigen::Matrix3d& strain) {
+    double energy = 0;
+    for (int d = 9; d < 18; ++d) {
+      const Eigen::Vector3d e(directions[d][0], directions[d][1], directions[d][2]);
+      const Eigen::Vector3d relative = strain * (2 * r * e);
+      energy += 0.5 * relative.dot(stiffness(law, e) * relative);
+    }
+    return energy / volume;
+  };
+  Eigen::Matrix3d xx = Eigen::Matrix3d::Zero(), yy = xx;
+  xx(0, 0) = 1, yy(1, 1) = 1;
+  const double c11 = 2 * energy_density(xx), c12 = energy_density(xx + yy) - c11;
+  return {(c11 - c12) * (c11 + 2 * c12) / (c11 + c12), c12 / (c11 + c12)};
+}
+
+}  // namespace geist::de

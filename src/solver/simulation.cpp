@@ -1,0 +1,130 @@
+#include "solver/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "fe/elements.hpp"
+#include "solver/nodes.hpp"
+
+namespace geist {
+namespace {
+
+/// β = αΔt/2: how damping enters the kick v⁺ = ((1 − β) v⁻ + Δt (f/m + g)) / (1 + β).
+double beta(double alpha, double dt) { return alpha * dt / 2; }
+
+de::Kick make_kick(double alpha, double dt, Vec3 gravity) {
+  const double b = beta(alpha, dt), scaled = dt / (1 + b);
+  return {(1 - b) / (1 + b), scaled, scaled, scaled * gravity};
+}
+
+/// The kick for one lattice's particles.
+de::Kick for_lattice(de::Kick kick, const Lattice& lattice) {
+  kick.per_mass /= lattice.mass, kick.per_inertia /= lattice.inertia;
+  return kick;
+}
+
+template <int N>
+void copy(const Field<N>& from, Field<N>& to) {
+  constexpr std::size_t block = 1024;
+  const std::size_t n = from.size();
+  for (int c = 0; c < N; ++c)
+    for_each((n + block - 1) / block,
+             [=, x = from[c], y = to[c]](std::size_t b) {
+               std::copy(x + b * block, x + std::min(n, (b + 1) * block), y + b * block);
+             },
+             8);
+}
+
+/// before ← 2 before − after: the mirror image of `after` about `before`.
+template <int N>
+void reflect(Field<N>& before, const Field<N>& after) {
+  for (int c = 0; c < N; ++c)
+    for (std::size_t i = 0; i < before.size(); ++i) before[c][i] = 2 * before[c][i] - after[c][i];
+}
+
+/// Sums of one lattice in units of energy: masses for displacement, inertias for spin, all in across and
+/// after.
+de::KickSums weighted(const de::KickSums& s, const Lattice& lattice) {
+  return {lattice.mass * s.across + lattice.inertia * s.spin_across,
+          lattice.mass * s.after + lattice.inertia * s.spin_after, 0, 0};
+}
+
+}  // namespace
+
+void Simulation::step(bool observe) {
+  {
+    const auto timing = timers.time(Phase::drift);  // u^{n+1} = u^n + Δt v^{n+1/2}
+    drift(model.mesh.u, model.mesh.v, dt);
+    for (Lattice& lattice : model.lattices) drift(lattice.motion, lattice.velocity, dt);
+    model.time = static_cast<double>(++model.step) * dt;
+  }
+  if (observe) keep_velocities();
+  forces_and_kick(dt, true);
+  settle(loads, model, observe ? model.time : model.time + dt);
+}
+
+void Simulation::start() {
+  keep_velocities();
+  supports.apply(model, dt, false);  // held components do not move, whatever the initial velocity says
+  for (Load& load : loads) load.t_settled = model.time;
+  forces_and_kick(dt / 2, false);
+  reflect(model.mesh.v_before, model.mesh.v);
+  for (Lattice& lattice : model.lattices) reflect(lattice.velocity_before, lattice.velocity);
+  initial_energy_ = 0;
+  const Ledger now = ledger();
+  initial_energy_ = now.kinetic() + now.internal();
+}
+
+void Simulation::forces_and_kick(double kick_dt, bool arrived) {
+  const de::Kick kick = make_kick(alpha, kick_dt, gravity(loads, model.time));
+  de::KickSums sums;
+  {
+    const auto timing = timers.time(Phase::coupling);
+    for (Lattice& lattice : model.lattices) coupling::follow(lattice, model.mesh);  // (21)
+  }
+  double power = 0;
+  {
+    const auto timing = timers.time(Phase::elements);
+    power = fe::internal_forces(model.mesh);  // f_I^int of (1)
+  }
+  {
+    const auto timing = timers.time(Phase::lattice);
+    for (Lattice& lattice : model.lattices)  // (19)–(23), (3)–(5), (13); then (15)(17)(18), (24)(26)(27)
+      sums += weighted(de::bond_forces_and_kick(lattice, for_lattice(kick, lattice)), lattice);
+  }
+  {
+    const auto timing = timers.time(Phase::nodes);
+    gather_internal_forces(model.mesh);
+    reactions.add(model);                    // (14)
+    add_loads(loads, model, model.time);     // f^res of (1)(2)
+    sums += kick_nodes(model.mesh, kick);    // (16)(25)
+    for (Lattice& lattice : model.lattices)  // ghosts' spins; loaded and supported particles
+      sums += weighted(de::kick_listed(lattice, for_lattice(kick, lattice)), lattice);
+    supports.apply(model, dt, arrived);
+  }
+  account(sums, kick_dt, arrived);
+  if (arrived) damping_work_ += 0.5 * dt * (hourglass_power_ + power);
+  hourglass_power_ = power;
+}
+
+void Simulation::account(const de::KickSums& sums, double kick_dt, bool arrived) {
+  // With A = Σ m v⁻·v⁻, B = Σ m v⁻·v⁺, C = Σ m v⁺·v⁺:  v^n = ½ (v⁻ + v⁺),  Δt f = m ((1 + β) v⁺ − (1 − β) v⁻)
+  const double A = after_, B = sums.across, C = sums.after, b = beta(alpha, kick_dt);
+  const double force_before = ((1 + b) * B - (1 - b) * A) / kick_dt;  // f^n·v⁻
+  const double kinetic = (A + 2 * B + C) / 8;
+  if (arrived) {
+    frequency_squared_ = A > 0 ? std::max(0.0, (force_after_ - force_before) / (dt * A)) : 0;
+    damping_work_ += alpha * dt * (kinetic_ + kinetic);  // trapezoidal rule on α Σ m v² = 2 α K
+  }
+  force_after_ = ((1 + b) * C - (1 - b) * B) / kick_dt;  // f^n·v⁺
+  kinetic_ = kinetic, after_ = C;
+}
+
+void Simulation::keep_velocities() {
+  const auto timing = timers.time(Phase::observe);
+  copy(model.mesh.v, model.mesh.v_before);
+  for (Lattice& lattice : model.lattices) copy(lattice.velocity, lattice.velocity_before);
+}
+
+}  // namespace geist

@@ -1,0 +1,57 @@
+#include "solver/supports.hpp"
+
+#include <cmath>
+
+namespace geist {
+namespace {
+
+double& velocity_of(Model& model, const HeldComponent& h) {
+  return h.lattice < 0 ? model.mesh.v[h.component][h.place]
+                       : model.lattices[h.lattice].velocity[h.component][h.place];
+}
+
+double force_on(const Model& model, const HeldComponent& h) {
+  return h.lattice < 0 ? model.mesh.f[h.component][h.place]
+                       : model.lattices[h.lattice].listed_force[h.component][h.slot];
+}
+
+double mass_of(const Model& model, const HeldComponent& h) {
+  if (h.lattice < 0) return model.mesh.mass[h.place];
+  const Lattice& lattice = model.lattices[h.lattice];
+  return h.component < 3 ? lattice.mass : lattice.inertia;
+}
+
+}  // namespace
+
+double Motion::velocity(double t, double dt) const {
+  switch (kind) {
+    case Kind::displacement:
+      return factor * (curve.at(t + dt) - curve.at(t)) / dt;
+    case Kind::velocity:
+      return factor * curve.at(t + dt / 2);
+    case Kind::held:
+      return 0;
+  }
+  return 0;
+}
+
+void Supports::apply(Model& model, double dt, bool arrived) {
+  velocities.resize(motions.size());
+  for (std::size_t m = 0; m < motions.size(); ++m) velocities[m] = motions[m].velocity(model.time, dt);
+  for (HeldComponent& h : held) {
+    const double after = velocities[h.motion], before = h.velocity;
+    const double reaction = mass_of(model, h) * (after - before) / dt - force_on(model, h);
+    if (arrived) work += 0.5 * (h.reaction + reaction) * before * dt;
+    h.reaction = reaction, h.velocity = after;
+    velocity_of(model, h) = after;
+  }
+}
+
+double Supports::reaction_norm() const {
+  double squares = 0;
+  for (const HeldComponent& h : held)
+    if (h.component < 3) squares += h.reaction * h.reaction;
+  return std::sqrt(squares);
+}
+
+}  // namespace geist

@@ -1,0 +1,74 @@
+#include "solver/time_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/ghosts.hpp"
+#include "de/bonds.hpp"
+#include "fe/elements.hpp"
+
+namespace geist {
+namespace {
+
+/// What the elements and the ghosts contribute to ω² at every node, times its mass.
+struct NodeBounds {
+  std::vector<double> elements, ghosts;
+};
+
+NodeBounds node_bounds(const Model& model) {
+  const Mesh& mesh = model.mesh;
+  NodeBounds at{std::vector<double>(mesh.nodes(), 0.0), std::vector<double>(mesh.nodes(), 0.0)};
+  const std::vector<double> omega2 = fe::frequencies_squared(mesh);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const auto m = fe::corner_masses(mesh, e);
+    for (int a = 0; a < 8; ++a) at.elements[mesh.elements[e][a]] += omega2[e] * m[a];
+  }
+  for (const Lattice& lattice : model.lattices) {
+    if (lattice.ghosts.empty()) continue;
+    const double omega2_L = de::largest_frequency_squared(lattice);
+    for (const Ghost& ghost : lattice.ghosts)
+      for (int a = 0; a < 8; ++a)
+        at.ghosts[mesh.elements[ghost.element][a]] += omega2_L * ghost.N[a] * lattice.mass;
+  }
+  return at;
+}
+
+TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBounds& at) {
+  double worst = 0;
+  std::int32_t node = 0;
+  for (std::size_t e = region.first; e < region.first + region.count; ++e)
+    for (const std::int32_t i : mesh.elements[e]) {
+      const double omega2 = (at.elements[i] + at.ghosts[i]) / mesh.mass[i];
+      if (omega2 > worst) worst = omega2, node = i;
+    }
+  const Vec3 p = mesh.points[node];
+  return {region.name, 2 / std::sqrt(worst),
+          fmt::format("{} at ({:.4g}, {:.4g}, {:.4g})",
+                      at.ghosts[node] > 0 ? "hexahedra with ghosts" : "hexahedra", p.x, p.y, p.z)};
+}
+
+}  // namespace
+
+std::vector<TimeStepBound> time_step_bounds(const Model& model) {
+  std::vector<TimeStepBound> bounds;
+  const NodeBounds at = node_bounds(model);
+  for (const HexRegion& region : model.mesh.regions) bounds.push_back(hex_bound(model.mesh, region, at));
+  for (const Lattice& lattice : model.lattices)
+    bounds.push_back({lattice.name, 2 / std::sqrt(de::largest_frequency_squared(lattice)),
+                      fmt::format("bonds of particles, r = {:.6g}", lattice.radius())});
+  return bounds;
+}
+
+const TimeStepBound& critical(const std::vector<TimeStepBound>& bounds) {
+  return *std::min_element(bounds.begin(), bounds.end(),
+                           [](const auto& a, const auto& b) { return a.bound < b.bound; });
+}
+
+double rounded_down(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 4);
+  return std::floor(x / unit) * unit;
+}
+
+}  // namespace geist

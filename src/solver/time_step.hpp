@@ -1,0 +1,36 @@
+// The largest time step that is surely stable.
+//
+// Central differences are stable for Δt ≤ 2/ω_max. ω_max is bounded from above by energies:
+//  - elements: E_e(u) ≤ ½ ω_e² Σ m_eI u_I², with ω_e the element's own largest frequency and m_eI its corner
+//  masses;
+//  - bonds: E(u, θ) ≤ ½ ω_L² (Σ m_d u² + I_d θ²) over particles and ghosts, with ω_L that of the endless
+//  lattice,
+//    since a bond that is missing only takes energy away;
+//  - ghosts follow nodes, |Σ N_I u_I|² ≤ Σ N_I |u_I|², so they charge node I with the mass Σ_g N_I m_d.
+// Hence ω_max² ≤ max( ω_L², max over I of (Σ_e ω_e² m_eI + ω_L² Σ_g N_I m_d) / m_I ).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace geist {
+
+/// A region's bound and what sets it.
+struct TimeStepBound {
+  std::string region;
+  double bound;       ///< largest surely stable Δt of the region, time
+  std::string limit;  ///< e.g. "smallest element at (…)", "node at (…) under the ghosts of 'middle'", "bonds,
+                      ///< r = 0.1"
+};
+
+/// One bound for each region, mesh regions first.
+std::vector<TimeStepBound> time_step_bounds(const Model& model);
+
+/// The smallest of them.
+const TimeStepBound& critical(const std::vector<TimeStepBound>& bounds);
+
+/// x rounded down to five significant digits, so that the step does not depend on a library's last bit.
+double rounded_down(double x);
+
+}  // namespace geist
