@@ -42,7 +42,7 @@ struct Surroundings {
     return {};
   }
   std::string hexahedra_at(Vec3 p) const {
-    const auto found = locator.find(p, 0);
+    const auto found = locator.find(p);
     return found ? region_of(model.mesh, found->element).name : std::string();
   }
   std::string at(Vec3 p) const {
