@@ -1,0 +1,171 @@
+#include "output/fields.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include "de/bonds.hpp"
+#include "fe/elements.hpp"
+#include "output/field_list.hpp"
+#include "output/file.hpp"
+#include "output/support.hpp"
+
+namespace geist::output {
+namespace {
+
+using geist::testing::error_of;
+using geist::testing::FullDisk;
+using geist::testing::read_text;
+using geist::testing::read_vtu;
+using geist::testing::Scratch;
+using geist::testing::small_model;
+
+const UnitSystem units{"mm", "g", "ms"};
+
+std::vector<std::string> listed_files(const std::filesystem::path& pvd) {
+  const std::string text = read_text(pvd);
+  const std::regex pattern("timestep=\"([^\"]*)\".*part=\"([^\"]*)\".*file=\"([^\"]*)\"");
+  std::vector<std::string> files;
+  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it)
+    files.push_back((*it)[1].str() + " " + (*it)[2].str() + " " + (*it)[3].str());
+  return files;
+}
+
+TEST(Fields, EveryFieldHasAsManyValuesAsItsPlace) {
+  const Model model = small_model();
+  const std::size_t places[] = {12, 2, 12, 4};  // nodes, hexahedra, particles, ghosts
+  std::set<std::pair<Place, std::string_view>> names;
+  for (const FieldInfo& field : fields()) {
+    EXPECT_EQ(field.values(model).size(), field.components * places[static_cast<int>(field.place)])
+        << field.name;
+    EXPECT_TRUE(field.shown || field.kept) << field.name;
+    EXPECT_TRUE(names.emplace(field.place, field.name).second) << field.name << " is declared twice";
+  }
+}
+
+TEST(Fields, HexahedraShowMotionAndStress) {
+  const Scratch scratch;
+  const Model model = small_model();
+  FieldWriter(scratch.path, units).write(model);
+  auto read = read_vtu(scratch / "fields/hexahedra_000120.vtu");
+  EXPECT_EQ(read.time, model.time);
+  EXPECT_EQ(read.points, 12u);
+  EXPECT_EQ(read.cells, 2u);
+  EXPECT_EQ(read.arrays["PointData/displacement"].values[3 * 5 + 1], model.mesh.u[1][5]);
+  EXPECT_EQ(read.arrays["PointData/displacement"].unit, "mm");
+  EXPECT_EQ(read.arrays["PointData/velocity"].values[3 * 5 + 1], 5) << "the mean of before and after";
+  EXPECT_EQ(read.arrays["Cells/connectivity"].values[0], 0);
+  EXPECT_EQ(read.arrays["Cells/connectivity"].values[1], 4);
+  const auto stress = fe::centre_stresses(model.mesh);
+  for (std::size_t e = 0; e < 2; ++e) {
+    for (int c = 0; c < 6; ++c)
+      EXPECT_EQ(read.arrays["CellData/stress"].values[6 * e + c], static_cast<float>(stress[e][c]));
+    EXPECT_EQ(read.arrays["CellData/von_mises"].values[e], static_cast<float>(von_mises(stress[e])));
+  }
+  EXPECT_EQ(read.arrays["CellData/stress"].unit, "MPa");
+  EXPECT_EQ(read.arrays["CellData/region"].values, (std::vector<double>{0, 0}));
+}
+
+TEST(Fields, ParticlesShowMotionAndEnergy) {
+  const Scratch scratch;
+  const Model model = small_model();
+  const Lattice& lattice = model.lattices[0];
+  FieldWriter(scratch.path, units, false).write(model);
+  auto read = read_vtu(scratch / "fields/particles_000120.vtu");
+  EXPECT_EQ(read.points, 12u);
+  const std::size_t s = lattice.grid.index(2, 0, 0), p = 1;  // particles are sites 1, 2, 3 of each row
+  EXPECT_EQ(read.arrays["Points/Points"].values[3 * p], 2.75);
+  EXPECT_EQ(read.arrays["PointData/displacement"].values[3 * p + 2], lattice.motion[2][s]);
+  EXPECT_EQ(read.arrays["PointData/rotation"].values[3 * p + 2], lattice.motion[5][s]);
+  EXPECT_EQ(read.arrays["PointData/velocity"].values[3 * p + 2], double(s));
+  EXPECT_EQ(read.arrays["PointData/spin"].values[3 * p + 2], double(s));
+  EXPECT_EQ(read.arrays["PointData/spin"].unit, "rad/ms");
+  EXPECT_EQ(read.arrays["PointData/radius"].values, std::vector<double>(12, 0.25));
+  EXPECT_EQ(read.arrays["PointData/strain_energy"].values[p],
+            static_cast<float>(de::site_energies(lattice)[s]));
+  EXPECT_EQ(read.arrays["PointData/intact_bonds"].values[p], 9);
+  EXPECT_EQ(read.arrays["PointData/region"].values[p], 1);
+}
+
+TEST(Fields, GhostsShowTheirHexahedron) {
+  const Scratch scratch;
+  const Model model = small_model();
+  FieldWriter(scratch.path, units).write(model);
+  auto read = read_vtu(scratch / "fields/ghosts_000120.vtu");
+  EXPECT_EQ(read.points, 4u);
+  EXPECT_EQ(read.arrays["PointData/hexahedron"].values, std::vector<double>(4, 1));
+  EXPECT_EQ(read.arrays["PointData/radius"].values, std::vector<double>(4, 0.25));
+  EXPECT_EQ(read.arrays["PointData/rotation"].values[3],
+            model.lattices[0].motion[3][model.lattices[0].ghosts[1].site]);
+  EXPECT_FALSE(read.arrays.contains("PointData/spin_after")) << "kept, not shown";
+}
+
+TEST(Fields, CollectionListsEveryFileOnce) {
+  const Scratch scratch;
+  Model model = small_model();
+  FieldWriter writer(scratch.path, units);
+  model.step = 0, model.time = 0;
+  writer.write(model);
+  model.step = 7, model.time = 0.1;
+  writer.write(model);
+  writer.write(model);
+  EXPECT_EQ(
+      listed_files(scratch / "fields.pvd"),
+      (std::vector<std::string>{"0 0 fields/hexahedra_000000.vtu", "0 1 fields/particles_000000.vtu",
+                                "0 2 fields/ghosts_000000.vtu", "0.1 0 fields/hexahedra_000007.vtu",
+                                "0.1 1 fields/particles_000007.vtu", "0.1 2 fields/ghosts_000007.vtu"}));
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(scratch / "fields")) ++files;
+  EXPECT_EQ(files, 6u);
+}
+
+TEST(Fields, PartsThatDoNotExistAreLeftOut) {
+  const Scratch scratch;
+  Model model = small_model();
+  model.lattices.clear();
+  FieldWriter(scratch.path, units).write(model);
+  EXPECT_EQ(listed_files(scratch / "fields.pvd"),
+            std::vector<std::string>{"0.125 0 fields/hexahedra_000120.vtu"});
+}
+
+TEST(Fields, FullDiskKeepsWhatWasThere) {
+  const Scratch scratch;
+  Model model = small_model();
+  FieldWriter writer(scratch.path, units);
+  writer.write(model);
+  const std::string before = read_text(scratch / "fields.pvd");
+  model.step = 121;
+  {
+    const FullDisk full(64);
+    EXPECT_EQ(error_of([&] { writer.write(model); }),
+              "cannot write " + (scratch / "fields/hexahedra_000121.vtu").string() + ": File too large");
+  }
+  EXPECT_EQ(read_text(scratch / "fields.pvd"), before);
+  EXPECT_FALSE(exists(scratch / "fields/hexahedra_000121.vtu"));
+}
+
+TEST(Fields, UnwritableDirectoryIsNamed) {
+  const Scratch scratch;
+  std::ofstream(scratch / "file") << "not a directory";
+  EXPECT_EQ(error_of([&] { FieldWriter(scratch / "file", units); }),
+            "cannot make the directory " + (scratch / "file/fields").string() + ": Not a directory");
+}
+
+TEST(Results, AreFoundAndRemovedAndNothingElse) {
+  const Scratch scratch;
+  EXPECT_FALSE(holds_results(scratch / "not there"));
+  EXPECT_FALSE(holds_results(scratch.path));
+  std::ofstream(scratch / "notes.txt") << "mine";
+  EXPECT_FALSE(holds_results(scratch.path));
+  FieldWriter(scratch.path, units).write(small_model());
+  write_whole(scratch / "summary.json", "{}");
+  EXPECT_TRUE(holds_results(scratch.path));
+  remove_results(scratch.path);
+  EXPECT_FALSE(holds_results(scratch.path));
+  EXPECT_TRUE(exists(scratch / "notes.txt"));
+}
+
+}  // namespace
+}  // namespace geist::output
