@@ -1,0 +1,123 @@
+#include "case/build.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "case/boundary.hpp"
+#include "case/diagnostic.hpp"
+#include "coupling/interfaces.hpp"
+#include "fe/elements.hpp"
+#include "geometry/block.hpp"
+#include "geometry/packing.hpp"
+
+namespace geist {
+namespace {
+
+void add_region(Mesh& mesh, const Case& input, const RegionSpec& spec, const HexahedraSpec& hexahedra) {
+  HexRegion region;
+  region.name = spec.name;
+  region.material = input.materials.at(spec.material);
+  const bool viscous = hexahedra.formulation == "one-point" && hexahedra.hourglass == "viscous";
+  region.formulation = viscous ? "one-point-viscous" : hexahedra.formulation;
+  region.hourglass_coefficient = hexahedra.hourglass_coefficient;
+  append_block(mesh, region, hexahedra.corners, hexahedra.divisions, hexahedra.minus);
+}
+
+/// A lattice with its particles, on a grid that has room for ghosts.
+Lattice make_lattice(const Case& input, const RegionSpec& spec, const LatticeSpec& packing) {
+  Lattice lattice;
+  lattice.name = spec.name;
+  lattice.material = input.materials.at(spec.material);
+  pack(lattice, packing.boxes, packing.minus, packing.radius);
+  if (lattice.count(site::particle) == 0) throw std::invalid_argument("no particle is left");
+  const double pitch = 2 * packing.radius;
+  lattice.mass = lattice.material.density * pitch * pitch * pitch;  // of the cell, not of the sphere
+  const double cube = lattice.mass * pitch * pitch / 6,
+               sphere = 0.4 * lattice.mass * packing.radius * packing.radius;
+  lattice.inertia = packing.rotary_inertia == "cube" ? cube : sphere;
+  return lattice;
+}
+
+/// Call make() and turn what is invalid about the geometry into an error at the region's place in the file.
+template <class F>
+void at_region(const Case& input, const RegionSpec& spec, F make) {
+  try {
+    make();
+  } catch (const std::invalid_argument& e) {
+    throw error_at(input, spec.source, fmt::format("region '{}': {}", spec.name, e.what()));
+  }
+}
+
+void make_regions(Model& model, const Case& input) {
+  for (const RegionSpec& spec : input.regions)
+    at_region(input, spec, [&] {
+      if (const auto* hexahedra = std::get_if<HexahedraSpec>(&spec.shape))
+        add_region(model.mesh, input, spec, *hexahedra);
+      else
+        model.lattices.push_back(make_lattice(input, spec, std::get<LatticeSpec>(spec.shape)));
+    });
+  finish(model.mesh);
+  fe::lump_masses(model.mesh);
+}
+
+const RegionSpec& spec_of(const Case& input, const std::string& name) {
+  for (const RegionSpec& spec : input.regions)
+    if (spec.name == name) return spec;
+  throw std::logic_error("no region " + name);
+}
+
+/// Ghosts, bonds, state and lists of all lattices.
+void couple(Model& model, const Case& input) {
+  const Locator locator(model.mesh);
+  for (Lattice& lattice : model.lattices)
+    if (input.coupling == "ghost-particles") coupling::place_ghosts(lattice, model.mesh, locator);
+  if (input.coupling == "ghost-particles")
+    if (const auto clash = coupling::find_clash(model, locator))
+      throw error_at(input, spec_of(input, clash->first).source, clash->message);
+  for (Lattice& lattice : model.lattices) {
+    trim(lattice);
+    connect(lattice);
+    finish(lattice);
+  }
+}
+
+/// Ghosts without rotation (the conference paper's) do not spin.
+void hold_ghost_spins(Model& model, const Case& input) {
+  if (input.rotation == "one-step-back") return;
+  for (Lattice& lattice : model.lattices)
+    for (const std::int32_t slot : lattice.ghost_slot) lattice.listed_held[slot] = 0b111111;
+}
+
+double choose_time_step(const Case& input, const std::vector<TimeStepBound>& bounds) {
+  const TimeStepBound& least = critical(bounds);
+  if (!input.analysis.time_step) return rounded_down(input.analysis.safety * least.bound);
+  if (*input.analysis.time_step > least.bound)
+    throw error_at(input, input.analysis.source,
+                   fmt::format("time_step = {:.6g} is more than the safe bound {:.6g} of region '{}' ({})",
+                               *input.analysis.time_step, least.bound, least.region, least.limit));
+  return *input.analysis.time_step;
+}
+
+}  // namespace
+
+Built build(const Case& input) {
+  Built built;
+  Simulation& sim = built.simulation;
+  make_regions(sim.model, input);
+  couple(sim.model, input);
+  const Selector selector(sim.model);
+  sim.supports = make_supports(input, selector);
+  sim.loads = make_loads(input, selector);
+  list_acted_on(sim);
+  hold_ghost_spins(sim.model, input);
+  set_initial_motion(sim.model, input, selector);
+  built.probes = make_probes(input, selector, sim);
+  sim.reactions = coupling::Reactions(sim.model);
+  built.bounds = time_step_bounds(sim.model);
+  sim.dt = choose_time_step(input, built.bounds);
+  sim.alpha = input.analysis.damping;
+  return built;
+}
+
+}  // namespace geist

@@ -1,0 +1,129 @@
+#include "case/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/parallel.hpp"
+#include "de/bonds.hpp"
+#include "fe/elements.hpp"
+#include "output/console.hpp"
+
+namespace geist {
+namespace {
+
+using output::with_commas;
+
+std::string hex_region(const HexRegion& region, const Mesh& mesh, const output::UnitSystem& units) {
+  double mass = 0;
+  for (std::size_t e = region.first; e < region.first + region.count; ++e) {
+    const auto m = fe::corner_masses(mesh, e);
+    mass = std::accumulate(m.begin(), m.end(), mass);
+  }
+  return fmt::format("  {:<12} {} hexahedra, {}; mass {:.6g} {}\n", region.name,
+                     with_commas(static_cast<long long>(region.count)), region.formulation, mass,
+                     units.mass().name);
+}
+
+std::string lattice_region(const Lattice& lattice, const output::UnitSystem& units) {
+  const std::size_t particles = lattice.count(site::particle);
+  const de::Recovered found = de::recovered_constants(lattice);
+  return fmt::format(
+      "  {:<12} {} particles of radius {:.6g} {}, {} bonds, {} ghosts; mass {:.6g} {}\n"
+      "  {:<12} recovered E = {:.6g} {}, nu = {:.6g} (endless lattice; material: {:.6g}, {:.6g})\n",
+      lattice.name, with_commas(static_cast<long long>(particles)), lattice.radius(), units.length().name,
+      with_commas(static_cast<long long>(de::bond_count(lattice))),
+      with_commas(static_cast<long long>(lattice.ghosts.size())),
+      lattice.mass * static_cast<double>(particles), units.mass().name, "", found.young,
+      units.label(output::dimension::stress), found.poisson, lattice.material.young,
+      lattice.material.poisson);
+}
+
+std::string regions(const Built& built, const output::UnitSystem& units) {
+  const Model& model = built.simulation.model;
+  std::string text = "Regions\n";
+  for (const HexRegion& region : model.mesh.regions) text += hex_region(region, model.mesh, units);
+  for (const Lattice& lattice : model.lattices) text += lattice_region(lattice, units);
+  const output::Counts n = output::count(model);
+  text += fmt::format(
+      "  in all       {} nodes, {} degrees of freedom, {}\n", with_commas(static_cast<long long>(n.nodes)),
+      with_commas(static_cast<long long>(n.degrees_of_freedom)), output::human_bytes(memory_of(model)));
+  return text;
+}
+
+std::string time_step(const Case& input, const Built& built, const output::UnitSystem& units) {
+  const TimeStepBound& least = critical(built.bounds);
+  std::string text = "Time step\n";
+  for (const TimeStepBound& b : built.bounds)
+    text += fmt::format("  {:<12} stable up to {:.6g} {} ({}){}\n", b.region, b.bound, units.time().name,
+                        b.limit, b.region == least.region ? "  <- limits" : "");
+  text +=
+      fmt::format("  {:<12} {:.6g} {}{}\n", "used", built.simulation.dt, units.time().name,
+                  input.analysis.time_step ? " (as given)"
+                                           : fmt::format(" (safety factor {:.3g})", input.analysis.safety));
+  return text;
+}
+
+std::string analysis(const Case& input, const Built& built, const output::UnitSystem& units) {
+  const AnalysisSpec& a = input.analysis;
+  const auto steps = [&](double duration) {
+    return with_commas(static_cast<long long>(std::ceil(duration / built.simulation.dt)));
+  };
+  if (a.type == "dynamic")
+    return fmt::format("Analysis\n  dynamic      {} steps to {:.6g} {}\n", steps(a.duration), a.duration,
+                       units.time().name);
+  std::string text = fmt::format(
+      "Analysis\n  quasi-static by adaptive dynamic relaxation until the residual is below "
+      "{:.3g} of the load",
+      a.tolerance);
+  const std::string limit = a.duration > 0 ? fmt::format("{} steps", steps(a.duration))
+                                           : fmt::format("{} steps", with_commas(a.max_steps));
+  return text +
+         fmt::format("\n               (how many steps that takes shows only on the way; at most {})\n",
+                     limit);
+}
+
+}  // namespace
+
+output::UnitSystem units_of(const Case& input) {
+  return {input.units.length, input.units.mass, input.units.time};
+}
+
+std::string describe(const Case& input, const Built& built) {
+  const output::UnitSystem units = units_of(input);
+  std::string text = fmt::format("{}\n", input.title);
+  text += fmt::format("Units\n  {}, {}, {}; hence {}, {}, {}\n", input.units.length, input.units.mass,
+                      input.units.time, units.label(output::dimension::force),
+                      units.label(output::dimension::stress), units.label(output::dimension::energy));
+  text += regions(built, units);
+  if (input.coupling == "ghost-particles" && !built.simulation.model.lattices.empty() &&
+      !built.simulation.model.mesh.elements.empty())
+    text += fmt::format("Coupling\n  ghost particles, rotation {}\n", input.rotation);
+  return text + time_step(input, built, units) + analysis(input, built, units);
+}
+
+double memory_of(const Model& model) {
+  const Mesh& mesh = model.mesh;
+  double bytes = static_cast<double>(mesh.nodes()) * (3 * 8 * 6 + 8 + 1 + 4);
+  bytes += static_cast<double>(mesh.elements.size()) * (8 * 4 + 8 * 4) +
+           static_cast<double>(mesh.blocks.size()) * 8 * 8 * 4;
+  bytes += static_cast<double>(mesh.corner_force.size()) * 8;
+  for (const Lattice& l : model.lattices)
+    bytes += static_cast<double>(l.grid.size()) * (18 * 8 + 4) +
+             static_cast<double>(l.listed.size()) * (6 * 8 + 9) +
+             static_cast<double>(l.ghosts.size()) * sizeof(Ghost);
+  return bytes;
+}
+
+int worthwhile_threads(const Model& model) {
+  constexpr double particle = 20e-9, hexahedron = 150e-9,
+                   share = 100e-6;  // seconds; of a step for each thread
+  double step = hexahedron * static_cast<double>(model.mesh.elements.size());
+  for (const Lattice& l : model.lattices) step += particle * static_cast<double>(l.grid.size());
+  const int processors = static_cast<int>(allowed_processors().size());
+  return std::clamp(static_cast<int>(step / share), 1, processors);
+}
+
+}  // namespace geist

@@ -1,0 +1,250 @@
+#include "case/execute.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "case/build.hpp"
+#include "case/describe.hpp"
+#include "core/parallel.hpp"
+#include "output/console.hpp"
+#include "output/fields.hpp"
+#include "output/file.hpp"
+#include "output/history.hpp"
+#include "output/progress.hpp"
+#include "output/summary.hpp"
+#include "solver/run.hpp"
+
+namespace geist {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* result_files[] = {"summary.json", "history.csv", "case.toml", "fields.pvd", "fields"};
+
+/// Make the directory ready: refuse results that are there, or remove them if `force`.
+void prepare_directory(const fs::path& directory, bool force) {
+  for (const char* name : result_files) {
+    if (!fs::exists(directory / name)) continue;
+    if (!force)
+      throw std::runtime_error(
+          fmt::format("{} holds results already; give --force to overwrite them, or --out for "
+                      "another place",
+                      directory.string()));
+    fs::remove_all(directory / name);
+  }
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw std::runtime_error(fmt::format("{}: {}", directory.string(), error.message()));
+}
+
+output::Dimension dimension_of(const Probe& probe) {
+  switch (probe.quantity) {
+    case Probe::Quantity::displacement:
+      return output::dimension::length;
+    case Probe::Quantity::velocity:
+      return output::dimension::velocity;
+    case Probe::Quantity::rotation:
+      return output::dimension::angle;
+    case Probe::Quantity::reaction:
+      return output::dimension::force;
+  }
+  return output::dimension::none;
+}
+
+std::vector<output::ProbeValue> probe_values(const std::vector<Probe>& probes, const Simulation* sim) {
+  std::vector<output::ProbeValue> values;
+  for (const Probe& p : probes)
+    values.push_back({p.name, dimension_of(p), sim ? p.value(*sim) : std::nan("")});
+  return values;
+}
+
+/// Writes history and fields, and shows progress.
+class Recorder : public Observer {
+ public:
+  Recorder(const Case& input, const ExecuteOptions& options, const std::vector<Probe>& probes)
+      : input_(input),
+        probes_(probes),
+        history_(options.directory / "history.csv", probe_values(probes, nullptr)),
+        fields_(options.directory, units_of(input), input.output.compress),
+        progress_(stderr, output::Progress::style_for(stderr, options.quiet), input.units.time) {}
+
+  void history(const Simulation& sim, const Observation& now) override {
+    std::vector<double> values;
+    for (const Probe& p : probes_) values.push_back(p.value(sim));
+    history_.write({sim.model.step, sim.model.time, std::move(values), now.ledger, now.residual});
+  }
+
+  void fields(const Simulation& sim, const Observation&) override { fields_.write(sim.model); }
+
+  void progress(const Simulation& sim, const Observation& now) override {
+    const bool dynamic = input_.analysis.type == "dynamic";
+    const double fraction =
+        dynamic ? sim.model.time / input_.analysis.duration : output::ProgressReport::unknown;
+    if (!progress_.due(fraction)) return;
+    output::ProgressReport report{.step = sim.model.step, .time = sim.model.time, .fraction = fraction};
+    if (dynamic)
+      report.balance = now.ledger.balance() / output::total_energy(now.ledger);
+    else
+      report.residual = now.residual, report.tolerance = input_.analysis.tolerance;
+    progress_.show(report);
+  }
+
+  void finish() { progress_.finish(); }
+
+ private:
+  const Case& input_;
+  const std::vector<Probe>& probes_;
+  output::History history_;
+  output::FieldWriter fields_;
+  output::Progress progress_;
+};
+
+RunPlan plan_of(const Case& input, const ExecuteOptions& options) {
+  RunPlan plan;
+  plan.quasi_static = input.analysis.type == "quasi-static";
+  plan.tolerance = input.analysis.tolerance;
+  plan.end_time = input.analysis.duration;
+  plan.max_steps = input.analysis.max_steps;
+  plan.history_every = input.output.history_every.value_or(0);
+  plan.fields_every = input.output.fields_every.value_or(0);
+  plan.balance_tolerance = input.analysis.balance_tolerance;
+  plan.stop = options.stop;
+  return plan;
+}
+
+std::string status_name(Status status) {
+  switch (status) {
+    case Status::completed:
+      return "completed";
+    case Status::not_converged:
+      return "not converged";
+    case Status::interrupted:
+      return "interrupted";
+    case Status::failed:
+      return "failed";
+  }
+  return "failed";
+}
+
+int exit_code(Status status) {
+  switch (status) {
+    case Status::completed:
+      return exit_completed;
+    case Status::not_converged:
+      return exit_not_converged;
+    case Status::interrupted:
+      return exit_interrupted;
+    case Status::failed:
+      return exit_failed;
+  }
+  return exit_failed;
+}
+
+nlohmann::ordered_json as_json(const std::string& toml_text) {
+  std::ostringstream text;
+  text << toml::json_formatter(toml::parse(toml_text));
+  return nlohmann::ordered_json::parse(text.str());
+}
+
+std::vector<output::Phase> phases_of(const Timers& timers, double wall) {
+  std::vector<output::Phase> phases;
+  double known = 0;
+  for (std::size_t i = 0; i < phase_names.size(); ++i) {
+    phases.push_back({phase_names[i], timers.seconds(static_cast<Phase>(i))});
+    known += phases.back().seconds;
+  }
+  phases.push_back({"writing and the rest", std::max(0.0, wall - known)});
+  return phases;
+}
+
+output::RunSummary summarise(const Case& input, const ExecuteOptions& options, const Built& built,
+                             const Outcome& outcome, double wall) {
+  const Simulation& sim = built.simulation;
+  output::RunSummary s;
+  s.title = input.title, s.status = status_name(outcome.status), s.message = outcome.message;
+  s.units = units_of(input);
+  s.probes = probe_values(built.probes, &sim);
+  s.ledger = outcome.last.ledger;
+  s.counts = output::count(sim.model);
+  const TimeStepBound& least = critical(built.bounds);
+  s.time_step = {sim.dt, least.bound, fmt::format("region '{}': {}", least.region, least.limit)};
+  s.steps = sim.model.step, s.time = sim.model.time;
+  if (input.analysis.type == "quasi-static")
+    s.quasi_static = output::Convergence{outcome.last.residual, input.analysis.tolerance,
+                                         outcome.status == Status::completed};
+  s.phases = phases_of(sim.timers, wall);
+  const auto rate = [&](std::size_t n) {
+    return static_cast<double>(n) * static_cast<double>(s.steps) / wall;
+  };
+  s.particle_steps_per_second = rate(s.counts.particles);
+  s.element_steps_per_second = rate(s.counts.hexahedra);
+  s.threads = threads();
+  s.versions = output::library_versions();
+  s.versions["geist"] = options.version;
+  s.complete_case = as_json(input.toml);
+  return s;
+}
+
+void print_end(const output::RunSummary& s, const ExecuteOptions& options) {
+  std::string text = fmt::format("\n{}{}{}: {} steps to time {:.6g} {} in {} on {} thread{}\n", s.status,
+                                 s.message.empty() ? "" : ": ", s.message, output::with_commas(s.steps),
+                                 s.time, s.units.time().name, output::human_seconds(s.wall_seconds()),
+                                 s.threads, s.threads == 1 ? "" : "s");
+  if (s.quasi_static)
+    text += fmt::format("residual {:.3g} of the load (wanted {:.3g})\n", s.quasi_static->residual,
+                        s.quasi_static->tolerance);
+  if (!s.probes.empty()) text += "\n" + output::to_text(output::probe_table(s.probes, s.units));
+  text += "\n" + output::to_text(output::ledger_table(s.ledger, s.units));
+  text += "\n" + output::to_text(output::timing_table(s.phases));
+  text += fmt::format(
+      "\nresults in {}/: open fields.pvd with ParaView, history.csv with a spreadsheet or pandas\n",
+      options.directory.string());
+  output::print(stdout, text);
+}
+
+}  // namespace
+
+int execute(const Case& input, const ExecuteOptions& options) {
+  Built built = build(input);
+  set_threads(options.threads > 0 ? options.threads : worthwhile_threads(built.simulation.model));
+  prepare_directory(options.directory, options.force);
+  output::write_whole(options.directory / "case.toml", input.toml);
+  if (!options.quiet) output::print(stdout, describe(input, built) + "\n");
+  const RunPlan plan = plan_of(input, options);
+  const double begin = output::Progress::wall_clock();
+  Outcome outcome;
+  {
+    Recorder recorder(input, options, built.probes);
+    try {
+      outcome = run(built.simulation, plan, {&recorder});
+    } catch (const std::runtime_error& e) {  // a file could not be written
+      outcome.status = Status::failed;
+      outcome.message = fmt::format("step {}, time {:.6g}: {}", built.simulation.model.step,
+                                    built.simulation.model.time, e.what());
+    }
+    recorder.finish();
+  }
+  const auto summary = summarise(input, options, built, outcome, output::Progress::wall_clock() - begin);
+  output::write_summary(options.directory / "summary.json", summary);
+  if (!outcome.message.empty())
+    output::print(stderr, fmt::format("geist: {}: {}\n", summary.status, outcome.message));
+  if (!options.quiet) print_end(summary, options);
+  return exit_code(outcome.status);
+}
+
+std::filesystem::path default_directory(const std::filesystem::path& case_file) {
+  fs::path name = case_file.stem();
+  if (name == "case") {
+    const fs::path folder = fs::absolute(case_file).parent_path().filename();
+    if (!folder.empty()) name = folder;
+  }
+  return fs::path("results") / name;
+}
+
+}  // namespace geist

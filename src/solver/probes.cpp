@@ -1,0 +1,59 @@
+#include "solver/probes.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace geist {
+namespace {
+
+double component_of(Vec3 a, int component) { return component < 3 ? a[component] : norm(a); }
+
+Vec3 at_node(const Mesh& mesh, Probe::Quantity quantity, std::int32_t node) {
+  if (quantity == Probe::Quantity::velocity) return 0.5 * (mesh.v_before.vector(node) + mesh.v.vector(node));
+  return mesh.u.vector(node);
+}
+
+Vec3 at_particle(const Lattice& lattice, Probe::Quantity quantity, std::size_t s) {
+  if (quantity == Probe::Quantity::velocity)
+    return 0.5 * (lattice.velocity_before.vector(s) + lattice.velocity.vector(s));
+  return lattice.motion.vector(s, quantity == Probe::Quantity::rotation ? 3 : 0);
+}
+
+double reaction(const Probe& probe, const Simulation& sim) {
+  Vec3 total;
+  for (const std::size_t i : probe.held) {
+    const HeldComponent& h = sim.supports.held[i];
+    if (h.component < 3) total[h.component] += h.reaction;
+  }
+  return component_of(total, probe.component);
+}
+
+}  // namespace
+
+double Probe::value(const Simulation& sim) const {
+  if (quantity == Quantity::reaction) return reaction(*this, sim);
+  double sum = 0, low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto take = [&](Vec3 a) {
+    const double x = component_of(a, component);
+    sum += x, low = std::min(low, x), high = std::max(high, x);
+  };
+  if (quantity != Quantity::rotation)
+    for (const std::int32_t node : nodes) take(at_node(sim.model.mesh, quantity, node));
+  for (const auto& [lattice, site] : particles)
+    take(at_particle(sim.model.lattices[lattice], quantity, site));
+  const auto count =
+      static_cast<double>((quantity == Quantity::rotation ? 0 : nodes.size()) + particles.size());
+  switch (reduce) {
+    case Reduce::min:
+      return low;
+    case Reduce::max:
+      return high;
+    case Reduce::sum:
+      return sum;
+    case Reduce::mean:
+      return sum / count;
+  }
+  return sum;
+}
+
+}  // namespace geist

@@ -1,0 +1,177 @@
+#include "solver/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geist {
+namespace {
+
+/// Steps at which something that recurs in time is due: the first step at or after each multiple of `every`.
+class Schedule {
+ public:
+  Schedule(double every, double dt) : every_(every), dt_(dt) {}
+  bool due(long step) const {
+    if (every_ <= 0) return false;
+    const auto multiples = [this](long n) {
+      return std::floor(static_cast<double>(n) * dt_ / every_ * (1 + 1e-12));
+    };
+    return multiples(step) > multiples(step - 1);
+  }
+
+ private:
+  double every_, dt_;
+};
+
+double history_interval(const RunPlan& plan, double dt) {
+  if (plan.history_every > 0) return plan.history_every;
+  return plan.quasi_static ? static_cast<double>(plan.check_every) * dt : plan.end_time / 1000;
+}
+
+/// One run under way.
+class Runner {
+ public:
+  Runner(Simulation& sim, const RunPlan& plan, const std::vector<Observer*>& observers)
+      : sim_(sim),
+        plan_(plan),
+        observers_(observers),
+        history_(history_interval(plan, sim.dt), sim.dt),
+        fields_(plan.fields_every, sim.dt) {}
+
+  Outcome run() {
+    sim_.start();
+    observe();
+    report_history(), report_fields();
+    while (!finished()) advance();
+    if (!reported_history_) report_history();
+    if (!reported_fields_) report_fields();
+    outcome_.last = last_;
+    return outcome_;
+  }
+
+ private:
+  bool ends_at(long step) const {
+    const bool over =
+        plan_.end_time > 0 && static_cast<double>(step) * sim_.dt >= plan_.end_time * (1 - 1e-12);
+    return over || step >= plan_.max_steps || (plan_.stop && *plan_.stop);
+  }
+
+  void advance() {
+    const long step = sim_.model.step + 1;
+    const bool history = history_.due(step), fields = fields_.due(step);
+    const bool watch = history || fields || step % plan_.check_every == 0 || ends_at(step);
+    sim_.step(watch);
+    reported_history_ = reported_fields_ = false;
+    if (!std::isfinite(sim_.kinetic_energy())) return fail_not_finite(watch);
+    if (watch) observe();
+    if (history) report_history();
+    if (fields) report_fields();
+    if (plan_.quasi_static) relaxation_.update(sim_);
+  }
+
+  void observe() {
+    last_.ledger = sim_.ledger();
+    last_.residual = plan_.quasi_static ? sim_.residual() : std::numeric_limits<double>::quiet_NaN();
+    observed_step_ = sim_.model.step;
+    for (Observer* o : observers_) o->progress(sim_, last_);
+    check_balance();
+  }
+
+  void check_balance() {
+    const Ledger& l = last_.ledger;
+    largest_ = std::max({largest_, l.kinetic() + l.internal() + std::abs(l.damping), std::abs(l.external)});
+    if (sim_.model.step < plan_.check_every || std::abs(l.balance()) <= plan_.balance_tolerance * largest_)
+      return;
+    outcome_ = {
+        Status::failed,
+        fmt::format("step {}, time {:.6g}: the energy balance is off by {:.2g} of the largest energy so far "
+                    "(allowed: {:.2g}); the time step may be too long",
+                    sim_.model.step, sim_.model.time, std::abs(l.balance()) / largest_,
+                    plan_.balance_tolerance),
+        {}};
+  }
+
+  void fail_not_finite(bool watched) {
+    outcome_ = {Status::failed,
+                fmt::format("step {}, time {:.6g}: {} is not a number any more", sim_.model.step,
+                            sim_.model.time, first_not_finite(sim_.model)),
+                {}};
+    if (watched) last_.ledger = sim_.ledger();
+  }
+
+  /// Whether the run is over; sets the outcome.
+  bool finished() {
+    if (outcome_.status == Status::failed) return true;
+    const bool observed = observed_step_ == sim_.model.step;
+    if (plan_.quasi_static && observed && sim_.model.step > 0 && last_.residual <= plan_.tolerance)
+      return true;
+    if (!ends_at(sim_.model.step) || !observed) return false;  // a signal may come after the step was chosen
+    const bool done =
+        plan_.end_time > 0 && static_cast<double>(sim_.model.step) * sim_.dt >= plan_.end_time * (1 - 1e-12);
+    if (plan_.stop && *plan_.stop)
+      outcome_ = {Status::interrupted, fmt::format("stopped by a signal at step {}", sim_.model.step), {}};
+    else if (plan_.quasi_static)
+      outcome_ = {
+          Status::not_converged,
+          fmt::format("no equilibrium after {} steps: the residual is {:.2g} of the load, wanted {:.2g}",
+                      sim_.model.step, last_.residual, plan_.tolerance),
+          {}};
+    else if (!done)
+      outcome_ = {
+          Status::not_converged,
+          fmt::format("stopped after max_steps = {} at time {:.6g}", plan_.max_steps, sim_.model.time),
+          {}};
+    return true;
+  }
+
+  void report_history() {
+    for (Observer* o : observers_) o->history(sim_, last_);
+    reported_history_ = true;
+  }
+  void report_fields() {
+    for (Observer* o : observers_) o->fields(sim_, last_);
+    reported_fields_ = true;
+  }
+
+  Simulation& sim_;
+  const RunPlan& plan_;
+  const std::vector<Observer*>& observers_;
+  Schedule history_, fields_;
+  Relaxation relaxation_;
+  Outcome outcome_;
+  Observation last_;
+  double largest_ = 0;
+  long observed_step_ = -1;
+  bool reported_history_ = false, reported_fields_ = false;
+};
+
+}  // namespace
+
+Outcome run(Simulation& sim, const RunPlan& plan, const std::vector<Observer*>& observers) {
+  return Runner(sim, plan, observers).run();
+}
+
+std::string first_not_finite(const Model& model) {
+  const Mesh& mesh = model.mesh;
+  const auto finite = [](Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); };
+  for (const HexRegion& region : mesh.regions)
+    for (std::size_t e = region.first; e < region.first + region.count; ++e)
+      for (const std::int32_t i : mesh.elements[e])
+        if (!finite(mesh.u.vector(i)) || !finite(mesh.v.vector(i)))
+          return fmt::format("region '{}', element {}, node {} at ({:.6g}, {:.6g}, {:.6g})", region.name,
+                             e - region.first, i, mesh.points[i].x, mesh.points[i].y, mesh.points[i].z);
+  for (const Lattice& lattice : model.lattices)
+    for (std::size_t s = 0; s < lattice.grid.size(); ++s)
+      for (const int first : {0, 3})
+        if (!finite(lattice.motion.vector(s, first)) || !finite(lattice.velocity.vector(s, first))) {
+          const auto [i, j, k] = lattice.grid.ijk(s);
+          const Vec3 p = lattice.grid.centre(s);
+          return fmt::format("region '{}', site ({}, {}, {}) at ({:.6g}, {:.6g}, {:.6g})", lattice.name, i, j,
+                             k, p.x, p.y, p.z);
+        }
+  return {};
+}
+
+}  // namespace geist
