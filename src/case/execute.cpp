@@ -25,22 +25,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* result_files[] = {"summary.json", "history.csv", "case.toml", "fields.pvd", "fields"};
-
 /// Make the directory ready: refuse results that are there, or remove them if `force`.
 void prepare_directory(const fs::path& directory, bool force) {
-  for (const char* name : result_files) {
-    if (!fs::exists(directory / name)) continue;
+  if (output::holds_results(directory)) {
     if (!force)
       throw std::runtime_error(
           fmt::format("{} holds results already; give --force to overwrite them, or --out for "
                       "another place",
                       directory.string()));
-    fs::remove_all(directory / name);
+    output::remove_results(directory);
   }
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw std::runtime_error(fmt::format("{}: {}", directory.string(), error.message()));
+  output::make_directory(directory);
 }
 
 output::Dimension dimension_of(const Probe& probe) {
@@ -70,7 +65,7 @@ class Recorder : public Observer {
   Recorder(const Case& input, const ExecuteOptions& options, const std::vector<Probe>& probes)
       : input_(input),
         probes_(probes),
-        history_(options.directory / "history.csv", probe_values(probes, nullptr)),
+        history_(options.directory / output::history_name, probe_values(probes, nullptr)),
         fields_(options.directory, units_of(input), input.output.compress),
         progress_(stderr, output::Progress::style_for(stderr, options.quiet), input.units.time) {}
 
@@ -231,7 +226,7 @@ int execute(const Case& input, const ExecuteOptions& options) {
     recorder.finish();
   }
   const auto summary = summarise(input, options, built, outcome, output::Progress::wall_clock() - begin);
-  output::write_summary(options.directory / "summary.json", summary);
+  output::write_summary(options.directory / output::summary_name, summary);
   if (!outcome.message.empty())
     output::print(stderr, fmt::format("geist: {}: {}\n", summary.status, outcome.message));
   if (!options.quiet) print_end(summary, options);
