@@ -1,6 +1,7 @@
 #include "solver/nodes.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/parallel.hpp"
 
@@ -40,13 +41,17 @@ template <int N>
 void drift(Field<N>& u, const Field<N>& v, double dt) {
   constexpr std::size_t block = 1024;
   const std::size_t n = u.size();
-  for (int c = 0; c < N; ++c)
-    for_each((n + block - 1) / block,
-             [=, x = u[c], y = static_cast<const double*>(v[c])](std::size_t b) {
-               for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i)
-                 x[i] = fma(dt, y[i], x[i]);
-             },
-             8);
+  struct Components {
+    double* u;
+    const double* v;
+  };
+  std::array<Components, N> components;
+  for (int c = 0; c < N; ++c) components[c] = {u[c], v[c]};
+  const auto drift_block = [=](std::size_t b) {
+    for (const auto [x, y] : components)
+      for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i) x[i] = fma(dt, y[i], x[i]);
+  };
+  for_each((n + block - 1) / block, drift_block, 4);
 }
 template void drift<3>(Field<3>&, const Field<3>&, double);
 template void drift<6>(Field<6>&, const Field<6>&, double);
