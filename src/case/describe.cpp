@@ -119,7 +119,7 @@ double memory_of(const Model& model) {
 
 int worthwhile_threads(const Model& model) {
   constexpr double particle = 20e-9, hexahedron = 150e-9,
-                   share = 100e-6;  // seconds; of a step for each thread
+                   share = 200e-6;  // seconds; of a step for each thread
   double step = hexahedron * static_cast<double>(model.mesh.elements.size());
   for (const Lattice& l : model.lattices) step += particle * static_cast<double>(l.grid.size());
   const int processors = static_cast<int>(allowed_processors().size());
