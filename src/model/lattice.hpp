@@ -109,7 +109,8 @@ struct Lattice {
   std::vector<std::size_t> listed;
   std::vector<std::int32_t> listed_begin;
   Field<6> listed_force;
-  std::vector<std::uint8_t> listed_held;  ///< bit c is set if component c is not for the kick: held, or follows
+  std::vector<std::uint8_t>
+      listed_held;  ///< bit c is set if component c is not for the kick: held, or follows
 
   std::vector<double> row_sums;  ///< scratch of the lattice kernel, by row
 

@@ -21,6 +21,9 @@ struct Curve {
     return (1 - s) * (*before)[1] + s * (*after)[1];
   }
 
+  /// From when on the value does not change any more.
+  double end() const { return points.empty() ? 0 : points.back()[0]; }
+
   /// Whether the value is one and the same from a to b.
   bool constant_over(double a, double b) const {
     const double value = at(a);

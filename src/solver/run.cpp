@@ -30,6 +30,14 @@ double history_interval(const RunPlan& plan, double dt) {
   return plan.quasi_static ? static_cast<double>(plan.check_every) * dt : plan.end_time / 1000;
 }
 
+/// From when on no load and no support changes any more: an equilibrium before that is not the one asked for.
+double steady_from(const Simulation& sim) {
+  double end = 0;
+  for (const Load& load : sim.loads) end = std::max(end, load.curve.end());
+  for (const Motion& motion : sim.supports.motions) end = std::max(end, motion.curve.end());
+  return end;
+}
+
 /// One run under way.
 class Runner {
  public:
@@ -38,7 +46,8 @@ class Runner {
         plan_(plan),
         observers_(observers),
         history_(history_interval(plan, sim.dt), sim.dt),
-        fields_(plan.fields_every, sim.dt) {}
+        fields_(plan.fields_every, sim.dt),
+        steady_from_(steady_from(sim)) {}
 
   Outcome run() {
     sim_.start();
@@ -142,6 +151,7 @@ class Runner {
   Relaxation relaxation_;
   Outcome outcome_;
   Observation last_;
+  double steady_from_;
   double largest_ = 0;
   long observed_step_ = -1;
   bool reported_history_ = false, reported_fields_ = false;

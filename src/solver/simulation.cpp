@@ -65,8 +65,8 @@ void Simulation::step(bool observe) {
 }
 
 void Simulation::start() {
+  supports.halt(model);
   keep_velocities();
-  supports.apply(model, dt, false);  // held components do not move, whatever the initial velocity says
   for (Load& load : loads) load.t_settled = model.time;
   forces_and_kick(dt / 2, false);
   reflect(model.mesh.v_before, model.mesh.v);

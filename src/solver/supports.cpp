@@ -47,6 +47,10 @@ void Supports::apply(Model& model, double dt, bool arrived) {
   }
 }
 
+void Supports::halt(Model& model) {
+  for (HeldComponent& h : held) velocity_of(model, h) = h.velocity = 0;
+}
+
 double Supports::reaction_norm() const {
   double squares = 0;
   for (const HeldComponent& h : held)

@@ -40,7 +40,10 @@ struct Supports {
   /// `arrived`: whether there was a step before.
   void apply(Model& model, double dt, bool arrived);
 
-  /// √Σ R²
+  /// Bring what is held to rest, whatever its initial velocity says.
+  void halt(Model& model);
+
+  /// √Σ R² over displacement components
   double reaction_norm() const;
 };
 
