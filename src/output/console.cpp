@@ -35,10 +35,14 @@ std::string two_units(long long whole, long long per, std::string_view large, st
 }  // namespace
 
 std::string with_commas(long long n) {
-  std::string digits = std::to_string(n);
-  const int first = n < 0;
-  for (int at = static_cast<int>(digits.size()) - 3; at > first; at -= 3) digits.insert(at, ",");
-  return digits;
+  const std::string digits = std::to_string(n);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    const bool thousands = (digits.size() - i) % 3 == 0 && i > (n < 0 ? 1u : 0u);
+    if (thousands) text += ',';
+    text += digits[i];
+  }
+  return text;
 }
 
 std::string human_bytes(double bytes) {
@@ -68,7 +72,8 @@ std::string to_text(const Table& table) {
   std::string text;
   for (const auto& row : rows) {
     std::string line;
-    for (std::size_t c = 0; c < row.size(); ++c) line += "  " + padded(row[c], columns[c], c == 0);
+    for (std::size_t c = 0; c < row.size(); ++c)
+      line += fmt::format("  {}", padded(row[c], columns[c], c == 0));
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + '\n';
   }

@@ -25,7 +25,7 @@ std::string header(std::span<const ProbeValue> probes) {
   for (const auto& [name, unit] : history_columns(probes)) {
     if (!names.insert(name).second)
       throw std::invalid_argument(fmt::format("the history has two columns called \"{}\"", name));
-    line += (line.empty() ? "" : ",") + quoted(name);
+    line += fmt::format("{}{}", line.empty() ? "" : ",", quoted(name));
   }
   return line + '\n';
 }
@@ -50,9 +50,10 @@ History::History(const std::filesystem::path& path, std::span<const ProbeValue> 
 void History::write(const HistoryRow& row) {
   if (row.probes.size() != probes_) throw std::invalid_argument("a history row has one value for each probe");
   std::string line = fmt::format("{},{}", row.step, number(row.time));
-  for (const double value : row.probes) line += ',' + number(value);
-  for (const LedgerEntry& entry : ledger_entries()) line += ',' + number(entry.value(row.ledger));
-  line += ',' + number(row.residual) + '\n';
+  for (const double value : row.probes) line += fmt::format(",{}", number(value));
+  for (const LedgerEntry& entry : ledger_entries())
+    line += fmt::format(",{}", number(entry.value(row.ledger)));
+  line += fmt::format(",{}\n", number(row.residual));
   file_.write(line);
   file_.flush();
 }

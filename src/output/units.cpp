@@ -54,9 +54,10 @@ std::string UnitSystem::label(Dimension d) const {
   multiply(above, mass_.name, d.mass), multiply(below, mass_.name, -d.mass);
   multiply(above, length_.name, d.length), multiply(below, length_.name, -d.length);
   multiply(above, time_.name, d.time), multiply(below, time_.name, -d.time);
-  if (above.empty()) above = "1";
+  if (above.empty()) above += '1';
   if (below.empty()) return above;
-  return below.find('*') == below.npos ? above + '/' + below : above + "/(" + below + ')';
+  const bool product = below.find('*') != below.npos;
+  return product ? fmt::format("{}/({})", above, below) : fmt::format("{}/{}", above, below);
 }
 
 }  // namespace geist::output
