@@ -1,0 +1,95 @@
+// Rules that need several values of a case together.
+#include "case/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace geist {
+
+namespace {
+
+constexpr double largest_lattice_poisson = 0.25;
+
+/// Where ν > 1/4, k_s of (5) is negative: a lattice of such springs is refused.
+void check_lattice_materials(Document& document, const View& root) {
+  std::map<std::string, std::vector<std::string>> lattices;  // of each material
+  for (const View& region : root.named("regions"))
+    if (region.get<std::string>("type") == "lattice")
+      if (const auto material = region.get<std::string>("material"))
+        lattices[*material].push_back(fmt::format("'{}'", region.name()));
+  for (const View& material : root.named("materials")) {
+    const auto poisson = material.get<double>("poisson");
+    const auto users = lattices.find(material.name());
+    if (!poisson || *poisson <= largest_lattice_poisson || users == lattices.end()) continue;
+    document.report(
+        material.place("poisson"),
+        fmt::format("'poisson' = {} does not suit a lattice ({} {} made of it): allowed there is (-1, 0.25]; "
+                    "above 1/4 the bonds' tangential stiffness k_s of equation (5) is negative",
+                    *poisson, join(users->second, "and"), users->second.size() > 1 ? "are" : "is"));
+  }
+}
+
+/// No component may be prescribed twice by one support.
+void check_components(Document& document, const View& support) {
+  std::vector<std::string> seen =
+      support.get<std::vector<std::string>>("fix").value_or(std::vector<std::string>{});
+  for (const char* key : {"displacement", "velocity"}) {
+    const auto motion = support.table(key);
+    if (!motion) continue;
+    for (const std::string& component : motion->keys()) {
+      if (std::find(seen.begin(), seen.end(), component) != seen.end())
+        document.report(motion->place(component),
+                        fmt::format("component '{}' is prescribed twice by this support", component));
+      seen.push_back(component);
+    }
+  }
+}
+
+void check_supports(Document& document, const View& root) {
+  for (const View& support : root.tables("supports")) {
+    check_components(document, support);
+    if (support.has("curve") && support.has("fix") && !support.has("displacement") &&
+        !support.has("velocity"))
+      document.report(support.place("curve"),
+                      "'curve' has nothing to multiply: only 'displacement' and 'velocity' follow a curve");
+  }
+}
+
+/// A state of rest needs something that holds the body and something that deforms it.
+void check_quasi_static(Document& document, const View& root) {
+  const auto analysis = root.table("analysis");
+  if (!analysis || analysis->get<std::string>("type") != "quasi-static") return;
+  const std::vector<View> supports = root.tables("supports"), loads = root.tables("loads");
+  const auto none = [&](const char* key, const std::vector<View>& list) {
+    return list.empty() && (!root.has(key) || root.acceptable(key));  // not where the list itself is wrong
+  };
+  if (none("supports", supports)) {
+    document.report(analysis->place("type"), "a quasi-static case needs at least one of [[supports]]");
+    return;
+  }
+  const bool moving = std::any_of(supports.begin(), supports.end(), [](const View& support) {
+    return support.has("displacement") || support.has("velocity");
+  });
+  if (!moving && none("loads", loads))
+    document.report(
+        analysis->place("type"),
+        "a quasi-static case needs one of [[loads]], or a support with a displacement or velocity");
+}
+
+}  // namespace
+
+void check_rules(Document& document) {
+  const View root(document);
+  check_lattice_materials(document, root);
+  for (const View& region : root.named("regions")) {
+    const auto type = region.get<std::string>("type");
+    if (type == "lattice") check_lattice(document, region);
+    if (type == "hexahedra") check_hexahedra(document, region);
+  }
+  check_supports(document, root);
+  check_quasi_static(document, root);
+}
+
+}  // namespace geist
