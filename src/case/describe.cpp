@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
 
 #include "core/parallel.hpp"
@@ -66,23 +69,48 @@ std::string time_step(const Case& input, const Built& built, const output::UnitS
   return text;
 }
 
+/// Edges of the box around everything, longest first.
+std::array<double, 3> extents(const Model& model) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Vec3 low{inf, inf, inf}, high = -low;
+  const auto widen = [&](Vec3 p, double r) {
+    for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c] - r), high[c] = std::max(high[c], p[c] + r);
+  };
+  for (const Vec3 p : model.mesh.points) widen(p, 0);
+  for (const Lattice& l : model.lattices)
+    for (std::size_t s = 0; s < l.grid.size(); ++s)
+      if (l.is(s, site::particle)) widen(l.grid.centre(s), l.radius());
+  std::array<double, 3> edges{high.x - low.x, high.y - low.y, high.z - low.z};
+  std::sort(edges.begin(), edges.end(), std::greater<>());
+  return edges;
+}
+
+/// Steps of dynamic relaxation if the body bends like a cantilever of the box around it: its lowest frequency
+/// is ω = 3.516 √(E/12ρ) h/L², and the residual falls by e in 1/ω.
+double relaxation_steps(const Case& input, const Built& built) {
+  double c = std::numeric_limits<double>::infinity();
+  for (const RegionSpec& region : input.regions) {
+    const Material& m = input.materials.at(region.material);
+    c = std::min(c, std::sqrt(m.young / m.density));
+  }
+  const auto edges = extents(built.simulation.model);
+  const double omega = 3.516 / std::sqrt(12.0) * c * edges[2] / (edges[0] * edges[0]);
+  return std::log(1 / input.analysis.tolerance) / (omega * built.simulation.dt);
+}
+
 std::string analysis(const Case& input, const Built& built, const output::UnitSystem& units) {
   const AnalysisSpec& a = input.analysis;
-  const auto steps = [&](double duration) {
-    return with_commas(static_cast<long long>(std::ceil(duration / built.simulation.dt)));
-  };
+  const auto count = [](double steps) { return with_commas(static_cast<long long>(std::ceil(steps))); };
+  const double dt = built.simulation.dt;
   if (a.type == "dynamic")
-    return fmt::format("Analysis\n  dynamic      {} steps to {:.6g} {}\n", steps(a.duration), a.duration,
+    return fmt::format("Analysis\n  dynamic      {} steps to {:.6g} {}\n", count(a.duration / dt), a.duration,
                        units.time().name);
-  std::string text = fmt::format(
-      "Analysis\n  quasi-static by adaptive dynamic relaxation until the residual is below "
-      "{:.3g} of the load",
-      a.tolerance);
-  const std::string limit = a.duration > 0 ? fmt::format("{} steps", steps(a.duration))
-                                           : fmt::format("{} steps", with_commas(a.max_steps));
-  return text +
-         fmt::format("\n               (how many steps that takes shows only on the way; at most {})\n",
-                     limit);
+  const double most = a.duration > 0 ? a.duration / dt : static_cast<double>(a.max_steps);
+  return fmt::format(
+      "Analysis\n  quasi-static by adaptive dynamic relaxation until the residual is below {:.3g} of the "
+      "load\n"
+      "               roughly {:.2g} steps if it bends like a cantilever of its size, at most {}\n",
+      a.tolerance, relaxation_steps(input, built), count(most));
 }
 
 }  // namespace
