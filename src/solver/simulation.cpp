@@ -74,6 +74,7 @@ void Simulation::start() {
   initial_energy_ = 0;
   const Ledger now = ledger();
   initial_energy_ = now.kinetic() + now.internal();
+  damping_power_ = 2 * alpha * now.kinetic();
 }
 
 void Simulation::forces_and_kick(double kick_dt, bool arrived) {
@@ -104,8 +105,10 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
     supports.apply(model, dt, arrived);
   }
   account(sums, kick_dt, arrived);
-  if (arrived) damping_work_ += 0.5 * dt * (hourglass_power_ + power);
-  hourglass_power_ = power;
+  const double damping_power =
+      2 * alpha * kinetic_ + power;  // Σ α m v² and that of viscous hourglass control
+  if (arrived) damping_work_ += 0.5 * dt * (damping_power_ + damping_power);
+  damping_power_ = damping_power;
 }
 
 void Simulation::account(const de::KickSums& sums, double kick_dt, bool arrived) {
@@ -113,10 +116,7 @@ void Simulation::account(const de::KickSums& sums, double kick_dt, bool arrived)
   const double A = after_, B = sums.across, C = sums.after, b = beta(alpha, kick_dt);
   const double force_before = ((1 + b) * B - (1 - b) * A) / kick_dt;  // f^n·v⁻
   const double kinetic = (A + 2 * B + C) / 8;
-  if (arrived) {
-    frequency_squared_ = A > 0 ? std::max(0.0, (force_after_ - force_before) / (dt * A)) : 0;
-    damping_work_ += alpha * dt * (kinetic_ + kinetic);  // trapezoidal rule on α Σ m v² = 2 α K
-  }
+  if (arrived) frequency_squared_ = A > 0 ? std::max(0.0, (force_after_ - force_before) / (dt * A)) : 0;
   force_after_ = ((1 + b) * C - (1 - b) * B) / kick_dt;  // f^n·v⁺
   kinetic_ = kinetic, after_ = C;
 }

@@ -50,10 +50,9 @@ class Simulation {
   void forces_and_kick(double kick_dt, bool arrived);
   void keep_velocities();
   void account(const de::KickSums& sums, double kick_dt, bool arrived);
-  void set_initial_energy();
 
   double damping_work_ = 0;  ///< of α and of viscous hourglass control
-  double hourglass_power_ = 0;
+  double damping_power_ = 0;
   double kinetic_ = 0, after_ = 0, force_after_ = 0, frequency_squared_ = 0;
   double initial_energy_ = 0;
 };
