@@ -11,8 +11,12 @@ namespace {
 
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
+/// "12.3 %"; shares too small for that keep a digit that says how small.
 std::string percent(double part, double whole) {
-  return whole > 0 ? fmt::format("{:.1f} %", 100 * part / whole) : std::string("-");
+  if (!(whole > 0)) return "-";
+  const double share = 100 * part / whole;
+  const bool tiny = share != 0 && std::abs(share) < 0.05;
+  return tiny ? fmt::format("{:.1g} %", share) : fmt::format("{:.1f} %", share);
 }
 
 /// Columns that a text takes up: bytes of UTF-8 that do not continue a character.
