@@ -92,8 +92,7 @@ std::vector<Key> region_details() {
           .when(lattice),
       choice("formulation", {"selective-reduced", "full", "one-point"},
              "Integration of the hexahedra: selective-reduced (the volumetric part at one point, the rest at "
-             "2 × 2 × 2), "
-             "full (all at 2 × 2 × 2), or one-point with hourglass control.")
+             "2 × 2 × 2), full (all at 2 × 2 × 2), or one-point with hourglass control.")
           .otherwise("\"selective-reduced\"")
           .when(hexahedra),
       choice("hourglass", {"stiffness", "viscous"}, "Form of the Flanagan–Belytschko hourglass control.")
