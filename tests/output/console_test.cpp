@@ -39,13 +39,13 @@ TEST(Console, TablesAreAligned) {
 TEST(Console, EndOfRunTables) {
   const UnitSystem units("mm", "g", "ms");
   Ledger ledger;
-  ledger.kinetic_translation = 1, ledger.strain_bonds = 3, ledger.external = 4.001;
+  ledger.kinetic_translation = 1, ledger.strain_bonds = 3, ledger.external = 4.0008;
   EXPECT_EQ(to_text(ledger_table(ledger, units)),
-            "  energy                  mJ    share\n"
-            "  kinetic translation      1   25.0 %\n"
-            "  strain bonds             3   75.0 %\n"
-            "  external             4.001  100.0 %\n"
-            "  balance             -0.001  -0.02 %\n");
+            "  energy                    mJ    share\n"
+            "  kinetic translation        1   25.0 %\n"
+            "  strain bonds               3   75.0 %\n"
+            "  external              4.0008  100.0 %\n"
+            "  balance              -0.0008  -0.02 %\n");
   EXPECT_EQ(to_text(probe_table(std::vector<ProbeValue>{{"tip", dimension::length, -11.8765432}}, units)),
             "  probe     value  unit\n"
             "  tip    -11.8765    mm\n");
