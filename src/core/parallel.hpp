@@ -33,7 +33,7 @@ inline std::vector<int> allowed_processors() {
 /// run on. Whoever sets OMP_PROC_BIND, or asks for more threads than processors, has bound them already or
 /// does not want it.
 inline void set_threads(int n) {
-  const std::vector<int> processors = allowed_processors();
+  static const std::vector<int> processors = allowed_processors();  // before any binding of ours
   const int available = static_cast<int>(processors.size());
   omp_set_num_threads(n > 0 ? n : available);
   omp_set_dynamic(0);
