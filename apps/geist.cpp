@@ -1,4 +1,4 @@
-// The command line: geist run, check, schema, keys.
+// The command line: geist run, check, schema, reference.
 #include <fmt/format.h>
 #include <signal.h>
 
@@ -95,14 +95,15 @@ int main_with(int argc, char** argv) {
       app.add_subcommand("check", "validate a case and print what was understood, without running");
   add_case_options(check, o);
   CLI::App* const schema = app.add_subcommand("schema", "print the JSON Schema of case files, for editors");
-  CLI::App* const keys = app.add_subcommand("keys", "print the reference of all keys, in Markdown");
+  CLI::App* const reference = app.add_subcommand("reference", "print the reference of all keys, in Markdown");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? geist::exit_completed : geist::exit_bad_input;
   }
   if (*schema) return geist::output::print(stdout, geist::case_schema_json()), geist::exit_completed;
-  if (*keys) return geist::output::print(stdout, geist::case_reference_markdown()), geist::exit_completed;
+  if (*reference)
+    return geist::output::print(stdout, geist::case_reference_markdown()), geist::exit_completed;
   return *run ? run_case(o) : *check ? check_case(o) : geist::exit_bad_input;
 }
 

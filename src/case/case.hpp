@@ -87,9 +87,11 @@ struct InitialSpec {
 struct ProbeSpec {
   std::string name;
   Where where;
-  std::string quantity;   ///< "displacement", "velocity", "rotation", "reaction"
-  std::string component;  ///< "x", "y", "z", "magnitude"
-  std::string reduce;     ///< "mean", "min", "max", "sum"
+  std::string quantity;            ///< "displacement", "velocity", "rotation", "reaction"
+  std::string component;           ///< "x", "y", "z", "magnitude"
+  std::string reduce;              ///< "mean", "min", "max", "sum"
+  std::optional<double> expected;  ///< shown beside the final value
+  std::string expected_from;       ///< where it comes from, or empty
   Source source;
 };
 

@@ -12,6 +12,7 @@
 #include "case/build.hpp"
 #include "case/describe.hpp"
 #include "core/parallel.hpp"
+#include "model/hash.hpp"
 #include "output/console.hpp"
 #include "output/fields.hpp"
 #include "output/file.hpp"
@@ -52,10 +53,13 @@ output::Dimension dimension_of(const Probe& probe) {
   return output::dimension::none;
 }
 
-std::vector<output::ProbeValue> probe_values(const std::vector<Probe>& probes, const Simulation* sim) {
+/// Names and, given a simulation, values of the probes.
+std::vector<output::ProbeValue> probe_values(const Case& input, const std::vector<Probe>& probes,
+                                             const Simulation* sim) {
   std::vector<output::ProbeValue> values;
-  for (const Probe& p : probes)
-    values.push_back({p.name, dimension_of(p), sim ? p.value(*sim) : std::nan("")});
+  for (std::size_t i = 0; i < probes.size(); ++i)
+    values.push_back({probes[i].name, dimension_of(probes[i]), sim ? probes[i].value(*sim) : std::nan(""),
+                      input.probes[i].expected.value_or(std::nan("")), input.probes[i].expected_from});
   return values;
 }
 
@@ -65,7 +69,7 @@ class Recorder : public Observer {
   Recorder(const Case& input, const ExecuteOptions& options, const std::vector<Probe>& probes)
       : input_(input),
         probes_(probes),
-        history_(options.directory / output::history_name, probe_values(probes, nullptr)),
+        history_(options.directory / output::history_name, probe_values(input, probes, nullptr)),
         fields_(options.directory, units_of(input), input.output.compress),
         progress_(stderr, output::Progress::style_for(stderr, options.quiet), input.units.time) {}
 
@@ -164,7 +168,7 @@ output::RunSummary summarise(const Case& input, const ExecuteOptions& options, c
   output::RunSummary s;
   s.title = input.title, s.status = status_name(outcome.status), s.message = outcome.message;
   s.units = units_of(input);
-  s.probes = probe_values(built.probes, &sim);
+  s.probes = probe_values(input, built.probes, &sim);
   s.ledger = outcome.last.ledger;
   s.counts = output::count(sim.model);
   const TimeStepBound& least = critical(built.bounds);
@@ -180,6 +184,7 @@ output::RunSummary summarise(const Case& input, const ExecuteOptions& options, c
   s.particle_steps_per_second = rate(s.counts.particles);
   s.element_steps_per_second = rate(s.counts.hexahedra);
   s.threads = threads();
+  s.state_hash = state_hash(sim.model);
   s.versions = output::library_versions();
   s.versions["geist"] = options.version;
   s.complete_case = as_json(input.toml);
@@ -209,7 +214,7 @@ int execute(const Case& input, const ExecuteOptions& options) {
   Built built = build(input);
   set_threads(options.threads > 0 ? options.threads : worthwhile_threads(built.simulation.model));
   prepare_directory(options.directory, options.force);
-  output::write_whole(options.directory / "case.toml", input.toml);
+  output::write_whole(options.directory / output::case_name, input.toml);
   if (!options.quiet) output::print(stdout, describe(input, built) + "\n");
   const RunPlan plan = plan_of(input, options);
   const double begin = output::Progress::wall_clock();

@@ -142,6 +142,8 @@ ProbeSpec probe_of(const View& view) {
           word(view, "quantity"),
           word(view, "component"),
           word(view, "reduce"),
+          view.get<double>("expected"),
+          view.get<std::string>("expected_from").value_or(""),
           view.source()};
 }
 

@@ -135,20 +135,25 @@ Table analysis_table() {
 Table probes_table() {
   constexpr Condition reaction{"quantity", "reaction"}, no_reaction{"quantity", "reaction", true};
   const std::vector<std::string_view> ways{"mean", "min", "max", "sum"};
-  return {
-      "probes.*",
-      "[probes.NAME]",
-      "One number over time, from all nodes and particles of a selection.",
-      {where("The nodes and particles looked at.").required(),
-       choice("quantity", {"displacement", "velocity", "rotation", "reaction"},
-              "What is looked at; only particles have a rotation, only supports a reaction.")
-           .required(),
-       choice("component", {"x", "y", "z", "magnitude"}, "A component, or the vector's magnitude.")
-           .required(),
-       choice("reduce", ways, "How the selection's values become one.")
-           .otherwise("\"mean\"")
-           .when(no_reaction),
-       choice("reduce", ways, "How the selection's values become one.").otherwise("\"sum\"").when(reaction)}};
+  return {"probes.*",
+          "[probes.NAME]",
+          "One number over time, from all nodes and particles of a selection.",
+          {where("The nodes and particles looked at.").required(),
+           choice("quantity", {"displacement", "velocity", "rotation", "reaction"},
+                  "What is looked at; only particles have a rotation, only supports a reaction.")
+               .required(),
+           choice("component", {"x", "y", "z", "magnitude"},
+                  "A component, or the magnitude of each vector (of a reaction: of the sum).")
+               .required(),
+           choice("reduce", ways, "How the selection's values become one.")
+               .otherwise("\"mean\"")
+               .when(no_reaction),
+           choice("reduce", {"sum"}, "A reaction is that of all supports in the selection together.")
+               .otherwise("\"sum\"")
+               .when(reaction),
+           number("expected", "that of the quantity",
+                  "A value to show the final one beside, with the difference."),
+           text("expected_from", "Where the expected value comes from.").when({"expected", {}})}};
 }
 
 Table output_table() {

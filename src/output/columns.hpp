@@ -16,6 +16,8 @@ struct ProbeValue {
   std::string name;
   Dimension dimension;
   double value = std::numeric_limits<double>::quiet_NaN();
+  double expected = std::numeric_limits<double>::quiet_NaN();  ///< to compare with, where the case names one
+  std::string expected_from = {};                              ///< where that comes from
 };
 
 /// An entry of the ledger: one column of the history, one key of the summary.

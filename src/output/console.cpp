@@ -19,6 +19,11 @@ std::string percent(double part, double whole) {
   return tiny ? fmt::format("{:.1g} %", share) : fmt::format("{:.1f} %", share);
 }
 
+/// By how much a value is larger in size than expected: "+2.4 %".
+std::string excess(double value, double expected) {
+  return expected == 0 ? "-" : fmt::format("{:+.2f} %", 100 * (value / expected - 1));
+}
+
 /// Columns that a text takes up: bytes of UTF-8 that do not continue a character.
 std::size_t width(std::string_view text) {
   return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
@@ -85,9 +90,20 @@ std::string to_text(const Table& table) {
 }
 
 Table probe_table(std::span<const ProbeValue> probes, const UnitSystem& units) {
+  const bool compare =
+      std::any_of(probes.begin(), probes.end(), [](auto& p) { return !std::isnan(p.expected); });
   Table table{{"probe", "value", "unit"}, {}};
-  for (const ProbeValue& probe : probes)
-    table.rows.push_back({probe.name, number(probe.value), units.label(probe.dimension)});
+  if (compare) table.header.insert(table.header.end(), {"expected", "difference", "by"});
+  for (const ProbeValue& probe : probes) {
+    auto& row = table.rows.emplace_back();
+    row = {probe.name, number(probe.value), units.label(probe.dimension)};
+    if (!compare) continue;
+    if (std::isnan(probe.expected))
+      row.insert(row.end(), {"", "", ""});
+    else
+      row.insert(row.end(),
+                 {number(probe.expected), excess(probe.value, probe.expected), probe.expected_from});
+  }
   return table;
 }
 

@@ -25,7 +25,7 @@ fs::path temporary_name(fs::path path) { return path += ".part"; }
 /// Those of a run's results that lie in the directory.
 std::vector<fs::path> results(const fs::path& directory) {
   std::vector<fs::path> found;
-  for (const std::string_view name : std::array{summary_name, history_name, fields_name})
+  for (const std::string_view name : std::array{summary_name, history_name, fields_name, case_name})
     if (fs::exists(directory / name)) found.push_back(directory / name);
   if (!fs::is_directory(directory / fields_folder)) return found;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory / fields_folder))

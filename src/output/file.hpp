@@ -57,7 +57,8 @@ void make_directory(const std::filesystem::path& path);
 
 /// Names of a run's results in its directory.
 inline constexpr std::string_view summary_name = "summary.json", history_name = "history.csv",
-                                  fields_name = "fields.pvd", fields_folder = "fields";
+                                  case_name = "case-as-run.toml", fields_name = "fields.pvd",
+                                  fields_folder = "fields";
 
 /// Whether the directory holds results of a run.
 bool holds_results(const std::filesystem::path& directory);

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <zlib.h>
 
+#include <cmath>
+
 #include "de/bonds.hpp"
 #include "output/field_list.hpp"
 #include "output/file.hpp"
@@ -31,6 +33,15 @@ Json units_json(const RunSummary& summary) {
 Json probes_json(const RunSummary& summary) {
   Json json = Json::object();
   for (const ProbeValue& probe : summary.probes) json[probe.name] = probe.value;
+  return json;
+}
+
+/// Probes that have a value to compare with.
+Json expected_json(const RunSummary& summary) {
+  Json json = Json::object();
+  for (const ProbeValue& probe : summary.probes)
+    if (!std::isnan(probe.expected))
+      json[probe.name] = {{"value", probe.expected}, {"from", probe.expected_from}};
   return json;
 }
 
@@ -95,6 +106,7 @@ nlohmann::ordered_json to_json(const RunSummary& s) {
       {"status", s.status},
       {"message", s.message},
       {"probes", probes_json(s)},
+      {"expected", expected_json(s)},
       {"units", units_json(s)},
       {"ledger", ledger_json(s.ledger)},
       {"quasi_static", quasi_static_json(s.quasi_static)},
@@ -107,6 +119,7 @@ nlohmann::ordered_json to_json(const RunSummary& s) {
       {"particle_steps_per_second", s.particle_steps_per_second},
       {"element_steps_per_second", s.element_steps_per_second},
       {"threads", s.threads},
+      {"state_hash", s.state_hash},
       {"versions", s.versions},
       {"case", s.complete_case}};
 }

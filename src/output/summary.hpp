@@ -51,6 +51,7 @@ struct RunSummary {
   std::vector<Phase> phases;
   double particle_steps_per_second = 0, element_steps_per_second = 0;
   int threads = 1;
+  std::string state_hash;  ///< of the final state's bits, the same for any number of threads
   std::map<std::string, std::string> versions;
   nlohmann::ordered_json complete_case;  ///< as run, defaults filled in
 

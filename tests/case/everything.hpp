@@ -95,6 +95,8 @@ where = { region = "ant" }
 quantity = "velocity"
 component = "magnitude"
 reduce = "max"
+expected = 2.5
+expected_from = "closed form"
 
 [output]
 fields = { every = 1e-3 }
