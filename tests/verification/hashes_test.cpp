@@ -1,0 +1,78 @@
+// Golden hashes: the bits of every example after 500 steps of its own analysis, relaxation included. They
+// are the same for any number of threads, observed or not, and on any machine and compiler that keeps to the
+// rules of core/pack.hpp.
+//
+// When a change of the method changes them on purpose, run this test, check the new results by the other
+// tests, and copy the table that it prints.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <map>
+
+#include "core/parallel.hpp"
+#include "model/hash.hpp"
+#include "verification/support.hpp"
+
+namespace geist::verification {
+namespace {
+
+const std::map<std::string, std::string> golden{
+    {"beam", "4d9bc8526500b6f3"},
+    {"wide-beam", "53222637c487b411"},
+};
+
+constexpr long steps = 500;
+
+struct Options {
+  int threads = 1;
+  long check_every = 100;
+  double history_every = std::numeric_limits<double>::max();
+};
+
+/// Reads all it can, as the writers do.
+class Reader : public Observer {
+ public:
+  void progress(const Simulation& sim, const Observation&) override { sum += sim.residual(); }
+  double sum = 0;
+};
+
+std::string hash_of(const std::string& name, const Options& options) {
+  const Case input = example(name);
+  set_threads(options.threads);
+  Built built = build(input);
+  RunPlan plan = plan_of(input);
+  plan.max_steps = steps, plan.check_every = options.check_every, plan.history_every = options.history_every;
+  plan.balance_tolerance =
+      std::numeric_limits<double>::max();  // in its first steps the beam has no energy yet
+  Reader reader;
+  run(built.simulation, plan, {&reader});
+  set_threads(1);
+  EXPECT_EQ(built.simulation.model.step, steps);
+  return state_hash(built.simulation.model);
+}
+
+TEST(GoldenHash, EveryExampleHasOne) {
+  for (const auto& entry : std::filesystem::directory_iterator(GEIST_SOURCE_DIR "/examples")) {
+    if (!std::filesystem::exists(entry.path() / "case.toml")) continue;
+    EXPECT_TRUE(golden.contains(entry.path().filename().string())) << entry.path();
+  }
+}
+
+class GoldenHashByThreads : public ::testing::TestWithParam<int> {};
+
+TEST_P(GoldenHashByThreads, IsTheSame) {
+  for (const auto& [name, hash] : golden)
+    EXPECT_EQ(hash_of(name, {.threads = GetParam()}), hash) << "    {\"" << name << "\", …},";
+}
+INSTANTIATE_TEST_SUITE_P(Threads, GoldenHashByThreads, ::testing::Values(1, 2, 3, 4));
+
+/// Watching every step, hardly ever, or on a grid of times changes no bit.
+TEST(GoldenHash, ObserversChangeNothing) {
+  EXPECT_EQ(hash_of("beam", {.check_every = 1}), golden.at("beam"));
+  EXPECT_EQ(hash_of("beam", {.check_every = 7, .history_every = 0.0031}), golden.at("beam"));
+  EXPECT_EQ(hash_of("beam", {.check_every = steps}), golden.at("beam"));
+}
+
+}  // namespace
+}  // namespace geist::verification
