@@ -58,17 +58,26 @@ Vec3 cell_point(const std::array<Vec3, 8>& corners, const Divisions& n, double i
 constexpr std::array<std::array<int, 3>, 8> corner_step{
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
+/// Whether a plane across one of the axes separates the element from the box; touching is allowed.
+bool apart(const std::array<Vec3, 8>& corners, const Box& box, double slack) {
+  for (int c = 0; c < 3; ++c) {
+    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(),
+                                                 [c](const Vec3& p, const Vec3& q) { return p[c] < q[c]; });
+    if ((*high)[c] <= box.low[c] + slack || (*low)[c] >= box.high[c] - slack) return true;
+  }
+  return false;
+}
+
 /// Whether the element lies in one of the boxes; throws if a box cuts through it.
 bool cut_out(const std::array<Vec3, 8>& corners, const std::vector<Box>& minus, double slack) {
-  const Vec3 centre = hex8::map(corners, {0, 0, 0});
   for (const Box& box : minus) {
-    const bool in = contains(box, centre);
-    for (const Vec3 p : corners)
-      if (in ? !contains(box, p, slack) : contains(box, p, -slack))
-        throw std::invalid_argument(
-            fmt::format("a box of 'minus' cuts through the element at ({:.6g}, {:.6g}, {:.6g})", centre.x,
-                        centre.y, centre.z));
-    if (in) return true;
+    if (apart(corners, box, slack)) continue;
+    const auto in = [&](const Vec3& p) { return contains(box, p, slack); };
+    if (std::all_of(corners.begin(), corners.end(), in)) return true;
+    const Vec3 centre = hex8::map(corners, {0, 0, 0});
+    throw std::invalid_argument(
+        fmt::format("a box of 'minus' cuts through the element at ({:.6g}, {:.6g}, {:.6g})", centre.x,
+                    centre.y, centre.z));
   }
   return false;
 }
