@@ -1,0 +1,156 @@
+#include "fe/elements.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/parallel.hpp"
+#include "fe/formulations.hpp"
+#include "fe/gather.hpp"
+#include "fe/parameters.hpp"
+#include "geometry/hex8.hpp"
+
+namespace geist::fe {
+namespace {
+
+/// Fewer blocks than this are not worth waking the threads.
+constexpr std::size_t grain = 16;
+
+/// How many of a block's lanes are elements.
+int real_lanes(const HexRegion& region, std::size_t block_of_region) {
+  return static_cast<int>(std::min<std::size_t>(lanes, region.count - block_of_region * lanes));
+}
+
+double sum_real_lanes(Pack a, int real) {
+  double s = 0;
+  for (int l = 0; l < real; ++l) s += a[l];
+  return s;
+}
+
+/// Forces of a region that dissipates nothing.
+template <class Formulation>
+void forces(Mesh& mesh, const HexRegion& region, Formulation formulation) {
+  const NodeField X(mesh.X), u(mesh.u);
+  const HexBlock* const blocks = mesh.blocks.data();
+  double* const out = mesh.corner_force.data();
+  const std::size_t first = region.first_block;
+  for_each(
+      region.blocks(),
+      [=](std::size_t i) {
+        const HexBlock& block = blocks[first + i];
+        Corners<Pack> f;
+        const Corners<Pack> w = u.at(block);
+        formulation.forces(X.at(block), w, w, f);
+        store_forces(f, out, first + i);
+      },
+      grain);
+}
+
+/// Forces of a region that needs velocities; returns the power it dissipates, added up in order of blocks.
+template <class Formulation>
+double viscous_forces(Mesh& mesh, const HexRegion& region, Formulation formulation) {
+  const NodeField X(mesh.X), u(mesh.u), v(mesh.v);
+  const HexBlock* const blocks = mesh.blocks.data();
+  double* const out = mesh.corner_force.data();
+  std::vector<double> power(region.blocks());
+  double* const powers = power.data();
+  for_each(
+      region.blocks(),
+      [=, &region](std::size_t i) {
+        const std::size_t b = region.first_block + i;
+        Corners<Pack> f;
+        const Pack p = formulation.forces(X.at(blocks[b]), u.at(blocks[b]), v.at(blocks[b]), f);
+        store_forces(f, out, b);
+        powers[i] = sum_real_lanes(p, real_lanes(region, i));
+      },
+      grain);
+  return std::accumulate(power.begin(), power.end(), 0.0);
+}
+
+template <class Formulation>
+Energies region_energies(const Mesh& mesh, const HexRegion& region, Formulation formulation) {
+  const NodeField X(mesh.X), u(mesh.u);
+  const HexBlock* const blocks = mesh.blocks.data() + region.first_block;
+  return sum<Energies>(region.blocks(), [=, &region](std::size_t i) {
+    const Stored<Pack> e = formulation.energy(X.at(blocks[i]), u.at(blocks[i]));
+    const int real = real_lanes(region, i);
+    return Energies{sum_real_lanes(e.strain, real), sum_real_lanes(e.hourglass, real)};
+  });
+}
+
+Corners<double> corner_values(const Mesh& mesh, const Field<3>& field, std::size_t e) {
+  Corners<double> x;
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) x[a][i] = field[i][mesh.elements[e][a]];
+  return x;
+}
+
+std::array<double, 6> centre_stress(const Corners<double>& X, const Corners<double>& u, const Material& m) {
+  double L[3][3], s[3][3];
+  mean_of_gradient(mean_gradient(to_modes(X)), to_modes(u), L);
+  hooke(m.lambda(), m.mu(), L, s);
+  return {s[0][0], s[1][1], s[2][2], s[0][1], s[1][2], s[0][2]};
+}
+
+/// Density of the region that element e belongs to.
+double density(const Mesh& mesh, std::size_t e) {
+  for (const HexRegion& r : mesh.regions)
+    if (e >= r.first && e < r.first + r.count) return r.material.density;
+  return 0;
+}
+
+std::array<double, 8> masses(const Mesh& mesh, std::size_t e, double rho) {
+  auto m = hex8::corner_volumes(hex8::corners(mesh, e));
+  for (double& a : m) a *= rho;
+  return m;
+}
+
+}  // namespace
+
+double internal_forces(Mesh& mesh) {
+  double power = 0;
+  for (const HexRegion& region : mesh.regions)
+    visit_formulation(region.formulation, parameters(region), [&](auto formulation) {
+      if constexpr (decltype(formulation)::uses_velocity)
+        power += viscous_forces(mesh, region, formulation);
+      else
+        forces(mesh, region, formulation);
+    });
+  return power;
+}
+
+Energies energies(const Mesh& mesh) {
+  Energies total;
+  for (const HexRegion& region : mesh.regions)
+    visit_formulation(region.formulation, parameters(region),
+                      [&](auto formulation) { total += region_energies(mesh, region, formulation); });
+  return total;
+}
+
+std::vector<std::array<double, 6>> centre_stresses(const Mesh& mesh) {
+  std::vector<std::array<double, 6>> stresses(mesh.elements.size());
+  auto* const out = stresses.data();
+  for (const HexRegion& region : mesh.regions)
+    for_each(
+        region.count,
+        [=, &mesh, &region](std::size_t i) {
+          const std::size_t e = region.first + i;
+          out[e] =
+              centre_stress(corner_values(mesh, mesh.X, e), corner_values(mesh, mesh.u, e), region.material);
+        },
+        grain * lanes);
+  return stresses;
+}
+
+std::array<double, 8> corner_masses(const Mesh& mesh, std::size_t element) {
+  return masses(mesh, element, density(mesh, element));
+}
+
+void lump_masses(Mesh& mesh) {
+  for (const HexRegion& region : mesh.regions)
+    for (std::size_t e = region.first; e < region.first + region.count; ++e) {
+      const auto m = masses(mesh, e, region.material.density);
+      for (int a = 0; a < 8; ++a) mesh.mass[mesh.elements[e][a]] += m[a];
+    }
+}
+
+}  // namespace geist::fe

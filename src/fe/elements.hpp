@@ -1,0 +1,37 @@
+// All hexahedra of a mesh: internal forces, energies, stresses, masses, and frequencies for the time step.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "model/mesh.hpp"
+
+namespace geist::fe {
+
+/// Forces of all elements on their corners, −f_I^int of (1) by element, from mesh.u (and mesh.v for viscous
+/// hourglass control) to mesh.corner_force. Returns the power that viscous hourglass control dissipates,
+/// otherwise 0.
+double internal_forces(Mesh& mesh);
+
+/// Energy stored by strain and by hourglass control.
+struct Energies {
+  double strain = 0, hourglass = 0;
+  Energies& operator+=(const Energies& e) { return strain += e.strain, hourglass += e.hourglass, *this; }
+};
+Energies energies(const Mesh& mesh);
+
+/// Stress of the mean strain, by element: xx, yy, zz, xy, yz, xz.
+std::vector<std::array<double, 6>> centre_stresses(const Mesh& mesh);
+
+/// Lumped mass ρ ∫ N_a dV of an element's corners (m_I in (1) is their sum).
+std::array<double, 8> corner_masses(const Mesh& mesh, std::size_t element);
+
+/// Add every element's corner masses to mesh.mass.
+void lump_masses(Mesh& mesh);
+
+/// By element, ω_e² such that Δt ≤ 2/ω_e for all e is stable when elements act alone: frequencies.cpp says
+/// why and how. Of each region, at most so many eigenproblems are solved (about 0.1 ms each); see there what
+/// the others get.
+std::vector<double> frequencies_squared(const Mesh& mesh, std::size_t most_eigenproblems = 10'000);
+
+}  // namespace geist::fe

@@ -1,0 +1,171 @@
+// Frequencies of elements, for the time step.
+//
+// Central differences with forces −K u^n − C v^{n−1/2} are stable if 4 M − 2 Δt C − Δt² K is positive
+// definite: C is applied to the velocity of half a step before, v^{n−1/2} = (v^{n−1/2} + v^{n+1/2})/2 − ½ Δt
+// v̇, so that the scheme is the one with centred damping and the mass M − ½ Δt C in place of M. (One mass: ω²
+// Δt² + 2 c Δt < 4, as from its roots.) These matrices are sums over elements, lumped mass included, so it is
+// enough that every element has it: for each,
+//
+//   Δt ≤ 2/ω_e,   ω_e = the y with y² = λmax(M_e⁻¹ (K_e + y C_e)) (*)
+//
+// which without damping is the largest frequency of K_e φ = ω² M_e φ. The right-hand side grows with y, so
+// that iterating (*) from y = c/2 + √(c²/4 + k), k and c the largest eigenvalues (or bounds) of M⁻¹K and
+// M⁻¹C, falls to the solution from above: every iterate is safe. What is returned is ω_e².
+//
+// An element that shares its nodes with others' stiffness must keep this in mind: with C ≠ 0, 2 Δt C + Δt² K
+// ≤ 4 M falls with Δt, not with Δt², so (Δt ω_e/2)² of M_e is not enough for it; Δt ω_e/2 of M_e is.
+//
+// Elements of one region that are equal up to a translation (to 10⁻¹⁰ of their size) share a result. If a
+// region has very many shapes, the eigenproblem is solved for those with the largest bounds by Gershgorin's
+// circles, which is where the time step is decided, and the others keep that bound: the largest sum of |row|
+// of M⁻¹K, M⁻¹C.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+
+#include "core/parallel.hpp"
+#include "fe/elements.hpp"
+#include "fe/formulations.hpp"
+#include "fe/parameters.hpp"
+#include "fe/stiffness.hpp"
+#include "geometry/hex8.hpp"
+
+#include <Eigen/Eigenvalues>  // after stiffness.hpp, which sets how Eigen computes
+
+namespace geist::fe {
+namespace {
+
+/// A little more than a, which covers the rounding of shapes and eigenvalues; rounded up to 30 bits, so that
+/// the last bits of the eigenvalue solver, which change with the compiler, do not reach the time step.
+double rounded_up(double a) {
+  int exponent;
+  const double fraction = std::frexp(a * (1 + 1e-8), &exponent);
+  return std::ldexp(std::ceil(std::ldexp(fraction, 30)), exponent - 30);
+}
+
+/// Edges from corner 0 in units of about 10⁻¹⁰ of the element's size (a power of two), and that unit's
+/// exponent.
+using ShapeKey = std::array<std::int64_t, 22>;
+
+ShapeKey shape_key(const hex8::Corners& x) {
+  double size = 0;
+  for (int a = 1; a < 8; ++a) size = std::max(size, norm(x[a] - x[0]));
+  ShapeKey key;
+  key[21] = std::ilogb(size) - 33;
+  for (int a = 1; a < 8; ++a)
+    for (int i = 0; i < 3; ++i)
+      key[3 * (a - 1) + i] = std::llround(std::ldexp(x[a][i] - x[0][i], -static_cast<int>(key[21])));
+  return key;
+}
+
+/// The different shapes of a region: an element of each, and every element's shape.
+struct Shapes {
+  std::vector<std::size_t> example, of_element;
+};
+
+Shapes find_shapes(const Mesh& mesh, const HexRegion& region) {
+  Shapes shapes;
+  std::map<ShapeKey, std::size_t> known;
+  for (std::size_t e = region.first; e < region.first + region.count; ++e) {
+    const auto [it, is_new] = known.try_emplace(shape_key(hex8::corners(mesh, e)), known.size());
+    if (is_new) shapes.example.push_back(e);
+    shapes.of_element.push_back(it->second);
+  }
+  return shapes;
+}
+
+/// M^{-1/2} A M^{-1/2} of an element's matrices, which has the eigenvalues of M⁻¹A.
+struct Scaled {
+  Matrix24 stiffness, damping;
+  Eigen::Matrix<double, 24, 1> root_mass;
+};
+
+template <class Formulation>
+Scaled scaled_matrices(const Mesh& mesh, std::size_t e, double density, const Formulation& formulation) {
+  const hex8::Corners x = hex8::corners(mesh, e);
+  const auto volumes = hex8::corner_volumes(x);
+  Corners<double> X;
+  Eigen::Matrix<double, 24, 1> root_mass;
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) {
+      X[a][i] = x[a][i] - x[0][i];
+      root_mass(3 * a + i) = std::sqrt(density * volumes[a]);
+    }
+  const auto scale = root_mass.cwiseInverse().asDiagonal();
+  return {scale * stiffness_matrix(formulation, X) * scale, scale * damping_matrix(formulation, X) * scale,
+          root_mass};
+}
+
+double largest_eigenvalue(const Matrix24& A) {
+  const Eigen::SelfAdjointEigenSolver<Matrix24> solver(A, Eigen::EigenvaluesOnly);
+  return std::max(0.0, solver.eigenvalues()(23));
+}
+
+/// Largest sum of |row| of M⁻¹A = M^{-1/2} (scaled A) M^{1/2}.
+double gershgorin(const Matrix24& A, const Eigen::Matrix<double, 24, 1>& root_mass) {
+  return ((A.cwiseAbs() * root_mass).array() / root_mass.array()).maxCoeff();
+}
+
+/// Solution of y² = k + c y.
+double start(double k, double c) { return c / 2 + std::sqrt(c * c / 4 + k); }
+
+double bound(const Scaled& m) {
+  return start(gershgorin(m.stiffness, m.root_mass), gershgorin(m.damping, m.root_mass));
+}
+
+/// Solution of (*), from above.
+double solution(const Scaled& m) {
+  const bool damped = !m.damping.isZero(0);
+  double y = start(largest_eigenvalue(m.stiffness), damped ? largest_eigenvalue(m.damping) : 0);
+  for (int i = 0; damped && i < 30; ++i) {
+    const double before = y;
+    y = std::sqrt(largest_eigenvalue(m.stiffness + y * m.damping));
+    if (y > before * (1 - 1e-6)) break;
+  }
+  return y;
+}
+
+/// ω_e of each shape.
+template <class Formulation>
+std::vector<double> shape_frequencies(const Mesh& mesh, const HexRegion& region, const Shapes& shapes,
+                                      Formulation formulation, std::size_t most_eigenproblems) {
+  const std::size_t n = shapes.example.size();
+  std::vector<double> omega(n, 0.0);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  const auto matrices = [&mesh, &region, &shapes, formulation](std::size_t s) {
+    return scaled_matrices(mesh, shapes.example[s], region.material.density, formulation);
+  };
+  if (n > most_eigenproblems) {
+    for_each(n, [matrices, out = omega.data()](std::size_t s) { out[s] = bound(matrices(s)); });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return omega[a] != omega[b] ? omega[a] > omega[b] : a < b;
+    });
+  }
+  for_each(std::min(n, most_eigenproblems),
+           [matrices, out = omega.data(), order = order.data()](std::size_t k) {
+             out[order[k]] = solution(matrices(order[k]));
+           });
+  return omega;
+}
+
+}  // namespace
+
+std::vector<double> frequencies_squared(const Mesh& mesh, std::size_t most_eigenproblems) {
+  std::vector<double> squares(mesh.elements.size());
+  for (const HexRegion& region : mesh.regions)
+    visit_formulation(region.formulation, parameters(region), [&](auto formulation) {
+      const Shapes shapes = find_shapes(mesh, region);
+      const std::vector<double> omega =
+          shape_frequencies(mesh, region, shapes, formulation, most_eigenproblems);
+      for (std::size_t i = 0; i < region.count; ++i) {
+        const double w = omega[shapes.of_element[i]];
+        squares[region.first + i] = rounded_up(w * w);
+      }
+    });
+  return squares;
+}
+
+}  // namespace geist::fe

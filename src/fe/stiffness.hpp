@@ -1,0 +1,62 @@
+// The matrices of one element, column by column from its formulation: f = −K u − C v. For set-up code and
+// tests. Degree of freedom 3 a + i is component i of corner a.
+#pragma once
+#ifndef EIGEN_DONT_VECTORIZE
+#define EIGEN_DONT_VECTORIZE  // what it computes should not depend on the instruction set
+#endif
+#include <Eigen/Core>
+
+#include "fe/hooke.hpp"
+#include "fe/modes.hpp"
+
+namespace geist::fe {
+
+using Matrix24 = Eigen::Matrix<double, 24, 24>;
+
+namespace detail {
+
+/// Minus the forces of unit values of each degree of freedom, eight at a time, as columns of a symmetric
+/// matrix; `force_of(unit, f)` computes the forces f.
+template <class F>
+Matrix24 columns(F force_of) {
+  Matrix24 A;
+  for (int first = 0; first < 24; first += lanes) {
+    Corners<Pack> unit{}, f;
+    for (int l = 0; l < lanes; ++l) unit[(first + l) / 3][(first + l) % 3][l] = 1;
+    force_of(unit, f);
+    for (int l = 0; l < lanes; ++l)
+      for (int d = 0; d < 24; ++d) A(d, first + l) = -f[d / 3][d % 3][l];
+  }
+  return A;
+}
+
+inline Corners<Pack> in_all_lanes(const Corners<double>& x) {
+  Corners<Pack> p;
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) p[a][i] = broadcast(x[a][i]);
+  return p;
+}
+
+}  // namespace detail
+
+/// K of an element with corners X; symmetric to rounding.
+template <class Formulation>
+Matrix24 stiffness_matrix(const Formulation& formulation, const Corners<double>& X) {
+  const Corners<Pack> x = detail::in_all_lanes(X), rest{};
+  return detail::columns(
+      [&](const Corners<Pack>& u, Corners<Pack>& f) { formulation.forces(x, u, rest, f); });
+}
+
+/// C of an element with corners X; zero for formulations that do not use velocities.
+template <class Formulation>
+Matrix24 damping_matrix(const Formulation& formulation, const Corners<double>& X) {
+  if constexpr (Formulation::uses_velocity) {
+    const Corners<Pack> x = detail::in_all_lanes(X), rest{};
+    return detail::columns(
+        [&](const Corners<Pack>& v, Corners<Pack>& f) { formulation.forces(x, rest, v, f); });
+  } else {
+    return Matrix24::Zero();
+  }
+}
+
+}  // namespace geist::fe

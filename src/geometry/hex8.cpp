@@ -1,0 +1,117 @@
+#include "geometry/hex8.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geist::hex8 {
+namespace {
+
+double longest_diagonal(const Corners& x) {
+  const std::array<std::array<int, 2>, 4> ends{{{0, 6}, {1, 7}, {2, 4}, {3, 5}}};
+  double longest = 0;
+  for (const auto& [a, b] : ends) longest = std::max(longest, norm(x[b] - x[a]));
+  return longest;
+}
+
+/// One Newton step from ξ, or nothing where the map is singular.
+bool newton_step(const Corners& x, Vec3 residual, Vec3 xi, double scale, Vec3& step) {
+  const Mat3 J = jacobian(x, xi);
+  if (!(std::abs(det(J)) > 1e-12 * scale * scale * scale)) return false;
+  step = inverse(J) * residual;
+  return true;
+}
+
+}  // namespace
+
+Corners corners(const Mesh& mesh, std::size_t e) {
+  Corners x;
+  for (int a = 0; a < 8; ++a) x[a] = mesh.points[mesh.elements[e][a]];
+  return x;
+}
+
+std::array<double, 8> shape(Vec3 xi) {
+  std::array<double, 8> N;
+  for (int a = 0; a < 8; ++a) {
+    const Vec3 s = corner_xi[a];
+    N[a] = (1 + s.x * xi.x) * (1 + s.y * xi.y) * (1 + s.z * xi.z) / 8;
+  }
+  return N;
+}
+
+std::array<Vec3, 8> shape_gradient(Vec3 xi) {
+  std::array<Vec3, 8> g;
+  for (int a = 0; a < 8; ++a) {
+    const Vec3 s = corner_xi[a];
+    const double p = 1 + s.x * xi.x, q = 1 + s.y * xi.y, r = 1 + s.z * xi.z;
+    g[a] = {s.x * q * r / 8, p * s.y * r / 8, p * q * s.z / 8};
+  }
+  return g;
+}
+
+Vec3 map(const Corners& x, Vec3 xi) {
+  const auto N = shape(xi);
+  Vec3 p;
+  for (int a = 0; a < 8; ++a) p += N[a] * x[a];
+  return p;
+}
+
+Mat3 jacobian(const Corners& x, Vec3 xi) {
+  const auto g = shape_gradient(xi);
+  Mat3 J{};
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) J[i] += x[a][i] * g[a];
+  return J;
+}
+
+std::array<Vec3, 8> position_gradient(const Corners& x, Vec3 xi) {
+  const Mat3 inv = inverse(jacobian(x, xi));
+  auto g = shape_gradient(xi);
+  for (Vec3& a : g) a = a.x * inv[0] + a.y * inv[1] + a.z * inv[2];
+  return g;
+}
+
+Inverse inverse_map(const Corners& x, Vec3 p, double tolerance) {
+  constexpr int most_steps = 50, most_halvings = 12;
+  const double scale = longest_diagonal(x);
+  Vec3 xi, step;
+  Vec3 residual = p - map(x, xi);
+  for (int k = 0; k < most_steps; ++k) {
+    const bool close = norm(residual) < tolerance * scale;
+    if (!newton_step(x, residual, xi, scale, step)) return {xi, close};
+    if (close) return {xi + step, true};
+    double share = 1;  // of the step; less where a full one leads away from p
+    Vec3 next = p - map(x, xi + step);
+    for (int h = 0; h < most_halvings && !(norm(next) < norm(residual)); ++h) {
+      share /= 2;
+      next = p - map(x, xi + share * step);
+    }
+    if (!(norm(next) < norm(residual))) return {xi, false};
+    xi += share * step;
+    residual = next;
+  }
+  return {xi, false};
+}
+
+double smallest_determinant(const Corners& x) {
+  double smallest = det(jacobian(x, corner_xi[0]));
+  for (Vec3 s : corner_xi) smallest = std::min({smallest, det(jacobian(x, s)), det(jacobian(x, gauss * s))});
+  return smallest;
+}
+
+std::array<double, 8> corner_volumes(const Corners& x) {
+  std::array<double, 8> v{};
+  for (Vec3 s : corner_xi) {
+    const auto N = shape(gauss * s);
+    const double dV = det(jacobian(x, gauss * s));
+    for (int a = 0; a < 8; ++a) v[a] += N[a] * dV;
+  }
+  return v;
+}
+
+double volume(const Corners& x) {
+  double v = 0;
+  for (Vec3 s : corner_xi) v += det(jacobian(x, gauss * s));
+  return v;
+}
+
+}  // namespace geist::hex8

@@ -1,0 +1,173 @@
+// Elements together: patch test, masses, energies, dissipation, threads, locking, the published beam's static
+// limit.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "support.hpp"
+
+#include <Eigen/SparseCholesky>
+
+namespace geist::fe {
+namespace {
+
+using namespace testing;
+
+const Material material{"m", 2.3, 10, 0.3};
+const std::vector<std::string> names{"full", "selective-reduced", "one-point", "one-point-viscous"};
+
+const Mat3 gradient{{Vec3{0.1, 0.4, -0.2}, Vec3{0.3, -0.5, 0.6}, Vec3{0.2, 0.1, 0.7}}};
+
+void set_linear(Mesh& mesh) {
+  for (std::size_t n = 0; n < mesh.nodes(); ++n) mesh.u.set(n, gradient * mesh.points[n] + Vec3{1, 2, 3});
+}
+
+void set_random(Mesh& mesh) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (std::size_t n = 0; n < mesh.nodes(); ++n) {
+    mesh.u.set(n, {value(random), value(random), value(random)});
+    mesh.v.set(n, {value(random), value(random), value(random)});
+  }
+}
+
+TEST(Mesh, PatchOfDistortedHexahedraHoldsConstantStress) {
+  const int n = 3;
+  for (const std::string& name : names) {
+    Mesh mesh = box({n, n, n}, {1, 1, 1}, name, material, scatter_inside(0.07));
+    set_linear(mesh);
+    EXPECT_NEAR(internal_forces(mesh), 0, 1e-28);
+    const Mat3 s = stress(gradient, material.lambda(), material.mu());
+    for (std::size_t p = 0; p < mesh.nodes(); ++p) {
+      // traction σ n on the share of every face that the node has; nothing inside
+      const Vec3 X = mesh.points[p];
+      Vec3 expected;
+      for (int d = 0; d < 3; ++d) {
+        double share = 1;
+        for (int o : {(d + 1) % 3, (d + 2) % 3}) share *= (X[o] == 0 || X[o] == 1 ? 0.5 : 1.0) / n;
+        for (int i = 0; i < 3; ++i) expected[i] += (X[d] == 0 ? 1 : X[d] == 1 ? -1 : 0) * share * s[i][d];
+      }
+      EXPECT_LT(norm(node_force(mesh, p) - expected), 1e-13) << name << " node " << p;
+    }
+    for (const auto& found : centre_stresses(mesh)) {
+      const double voigt[6] = {s[0][0], s[1][1], s[2][2], s[0][1], s[1][2], s[0][2]};
+      for (int c = 0; c < 6; ++c) EXPECT_NEAR(found[c], voigt[c], 1e-13);
+    }
+  }
+}
+
+TEST(Mesh, PatchIsReallyDistorted) {
+  const Mesh mesh = box({3, 3, 3}, {1, 1, 1}, "full", material, scatter_inside(0.07));
+  double twist = 0;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    EXPECT_TRUE(hex8::valid(hex8::corners(mesh, e)));
+    const auto x = hex8::corners(mesh, e);
+    twist = std::max(twist, norm((x[1] - x[0]) - (x[6] - x[7])));
+  }
+  EXPECT_GT(twist, 0.05);
+}
+
+TEST(Mesh, MassesAreThoseOfTheirVolume) {
+  Mesh mesh = box({3, 4, 5}, {1, 1, 1}, "full", material, scatter_inside(0.05));
+  lump_masses(mesh);
+  double whole = 0;
+  Vec3 moment;
+  for (std::size_t n = 0; n < mesh.nodes(); ++n)
+    whole += mesh.mass[n], moment += mesh.mass[n] * mesh.points[n];
+  EXPECT_NEAR(whole, 2.3, 1e-13);
+  EXPECT_LT(norm(moment - 2.3 * Vec3{0.5, 0.5, 0.5}), 1e-12);
+  double sum = 0;
+  for (double m : corner_masses(mesh, 17)) sum += m;
+  EXPECT_NEAR(sum, 2.3 * hex8::volume(hex8::corners(mesh, 17)), 1e-15);
+}
+
+TEST(Mesh, EnergiesAreHalfTheWorkOfTheForces) {
+  for (const std::string name : {"full", "selective-reduced", "one-point"}) {
+    Mesh mesh = box({3, 3, 3}, {1, 1, 1}, name, material, scatter_inside(0.07));  // 27: last block not full
+    set_random(mesh);
+    internal_forces(mesh);
+    double work = 0;
+    for (std::size_t n = 0; n < mesh.nodes(); ++n) work -= dot(node_force(mesh, n), mesh.u.vector(n)) / 2;
+    const Energies e = energies(mesh);
+    EXPECT_NEAR(e.strain + e.hourglass, work, 1e-12 * work);
+    EXPECT_GT(e.strain, 0);
+    EXPECT_EQ(e.hourglass > 0, name == "one-point");
+  }
+}
+
+TEST(Mesh, DissipatedPowerCountsRealElementsOnly) {
+  Mesh mesh = box({3, 3, 3}, {1, 1, 1}, "one-point-viscous", material, scatter_inside(0.07));
+  set_random(mesh);
+  for (std::size_t n = 0; n < mesh.nodes(); ++n) mesh.u.set(n, {});
+  const double power = internal_forces(mesh);
+  double work = 0;
+  for (std::size_t n = 0; n < mesh.nodes(); ++n) work -= dot(node_force(mesh, n), mesh.v.vector(n));
+  EXPECT_GT(power, 0);
+  EXPECT_NEAR(power, work, 1e-13 * power);
+}
+
+TEST(Mesh, SameBitsForAnyNumberOfThreads) {
+  const int before = omp_get_max_threads();
+  for (const std::string& name : names) {
+    std::vector<double> forces, numbers;
+    for (int threads : {1, 3, 7}) {
+      omp_set_num_threads(threads);
+      Mesh mesh = box({12, 11, 13}, {1, 1, 1}, name, material, scatter_inside(0.01));
+      set_random(mesh);
+      const double power = internal_forces(mesh);
+      const Energies e = energies(mesh);
+      if (threads == 1) forces = mesh.corner_force, numbers = {power, e.strain, e.hourglass};
+      EXPECT_EQ(forces, mesh.corner_force);
+      EXPECT_EQ(numbers, (std::vector<double>{power, e.strain, e.hourglass}));
+    }
+  }
+  omp_set_num_threads(before);
+}
+
+/// Deflection of a cantilever along x, clamped at x = 0, with force P in z spread over the end face by
+/// tributary area: the mean over that face, weighted alike.
+double tip_deflection(std::array<int, 3> n, Vec3 size, const std::string& name, const Material& m, double P) {
+  const Mesh mesh = box(n, size, name, m);
+  const int dofs = static_cast<int>(3 * mesh.nodes());
+  std::vector<Eigen::Triplet<double>> entries;
+  Matrix24 K;
+  visit_formulation(name, {m.lambda(), m.mu(), m.density, 0.05}, [&](auto law) {
+    K = stiffness_matrix(law, to_array(hex8::corners(mesh, 0)));  // all elements are alike
+  });
+  for (const auto& nodes : mesh.elements)
+    for (int p = 0; p < 24; ++p)
+      for (int q = 0; q < 24; ++q)
+        if (mesh.points[nodes[p / 3]].x > 0 && mesh.points[nodes[q / 3]].x > 0)
+          entries.emplace_back(3 * nodes[p / 3] + p % 3, 3 * nodes[q / 3] + q % 3, K(p, q));
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(dofs);
+  for (std::size_t i = 0; i < mesh.nodes(); ++i) {
+    const Vec3 X = mesh.points[i];
+    for (int d = 0; d < 3 && X.x == 0; ++d) entries.emplace_back(3 * i + d, 3 * i + d, 1.0);
+    if (X.x != size.x) continue;
+    const double share = (X.y == 0 || X.y == size.y ? 0.5 : 1.0) * (X.z == 0 || X.z == size.z ? 0.5 : 1.0);
+    load(3 * static_cast<int>(i) + 2) = P * share / (n[1] * n[2]);
+  }
+  Eigen::SparseMatrix<double> A(dofs, dofs);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::VectorXd u = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(A).solve(load);
+  return u.dot(load) / P;
+}
+
+TEST(Mesh, BeamsDeflectAsPublished) {
+  const Material beam{"beam", 0.001, 1000, 0.2};
+  EXPECT_NEAR(tip_deflection({40, 4, 4}, {20, 2, 2}, "full", beam, 1), 1.947522, 1e-6);
+  EXPECT_NEAR(tip_deflection({40, 4, 4}, {20, 2, 2}, "selective-reduced", beam, 1), 1.970252, 1e-6);
+}
+
+TEST(Mesh, NearlyIncompressibleBendingDoesNotLock) {
+  const auto ratio = [](const std::string& name) {
+    const auto tip = [&](double nu) {
+      return tip_deflection({10, 2, 2}, {10, 1, 2}, name, {"rubber", 1, 1000, nu}, 1);
+    };
+    return tip(0.4999) / tip(0.3);
+  };
+  EXPECT_LT(ratio("full"), 0.5);
+  EXPECT_NEAR(ratio("selective-reduced"), 1, 0.1);
+}
+
+}  // namespace
+}  // namespace geist::fe
