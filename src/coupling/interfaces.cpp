@@ -133,25 +133,29 @@ std::optional<Clash> between_hexahedra(const Model& model, const Locator& locato
   return std::nullopt;
 }
 
-/// A node of the mesh that lies well inside a particle's cell (hexahedra smaller than the points tested
-/// above).
-std::optional<Clash> nodes_in_cells(const Model& model) {
-  for (const Lattice& lattice : model.lattices)
-    for (std::size_t e = 0; e < model.mesh.elements.size(); ++e) {
-      const Vec3 p = hex8::map(hex8::corners(model.mesh, e), {0, 0, 0});
-      if (!in_cell(lattice, p)) continue;
-      const std::string name = region_of(model.mesh, static_cast<std::int32_t>(e)).name;
-      return Clash{lattice.name, name,
-                   fmt::format("regions '{}' and '{}' overlap at {}", lattice.name, name, place(p))};
-    }
+/// A hexahedron whose centre lies in a particle's cell (smaller than the points tested above) or in another
+/// hexahedron (which it may share all nodes with).
+std::optional<Clash> centres_elsewhere(const Model& model, const Locator& locator) {
+  for (std::size_t e = 0; e < model.mesh.elements.size(); ++e) {
+    const auto element = static_cast<std::int32_t>(e);
+    const Vec3 p = hex8::map(hex8::corners(model.mesh, e), {0, 0, 0});
+    const auto clash = [&](const std::string& a, const std::string& b) {
+      return Clash{a, b, fmt::format("regions '{}' and '{}' overlap at {}", a, b, place(p))};
+    };
+    const std::string& name = region_of(model.mesh, element).name;
+    for (const Lattice& lattice : model.lattices)
+      if (in_cell(lattice, p)) return clash(lattice.name, name);
+    const auto found = locator.find(p);  // the first one there
+    if (found && found->element != element) return clash(name, region_of(model.mesh, found->element).name);
+  }
   return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<Clash> find_clash(const Model& model, const Locator& locator) {
+  if (auto clash = centres_elsewhere(model, locator)) return clash;
   if (auto clash = between_hexahedra(model, locator)) return clash;
-  if (auto clash = nodes_in_cells(model)) return clash;
   for (const Lattice& lattice : model.lattices) {
     const Surroundings around{model, locator, &lattice};
     for (std::size_t s = 0; s < lattice.grid.size(); ++s)
