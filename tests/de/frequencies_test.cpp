@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/parallel.hpp"
 #include "de/bonds.hpp"
 #include "de/elastic_bond.hpp"
 #include "de/support.hpp"
@@ -23,6 +24,7 @@ void set_inertia(Lattice& lattice, Inertia kind) {
 
 /// Largest ω² of K φ = ω² M φ by power iteration with the kernel's forces, a lower bound of it at every step.
 double power_iteration(Lattice& lattice, int steps) {
+  set_threads(1);
   move_at_random(lattice, 99);
   const double share[2] = {std::sqrt(lattice.mass), std::sqrt(lattice.inertia)};
   double omega2 = 0;
