@@ -19,6 +19,10 @@ void add_region(Mesh& mesh, const Case& input, const RegionSpec& spec, const Hex
   region.name = spec.name;
   region.material = input.materials.at(spec.material);
   const bool viscous = hexahedra.formulation == "one-point" && hexahedra.hourglass == "viscous";
+  if (viscous && input.analysis.type == "quasi-static")
+    throw std::invalid_argument(
+        "viscous hourglass control resists motion only, so a quasi-static analysis never comes "
+        "to rest; use hourglass = \"stiffness\"");
   region.formulation = viscous ? "one-point-viscous" : hexahedra.formulation;
   region.hourglass_coefficient = hexahedra.hourglass_coefficient;
   append_block(mesh, region, hexahedra.corners, hexahedra.divisions, hexahedra.minus);

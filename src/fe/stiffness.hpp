@@ -1,9 +1,6 @@
 // The matrices of one element, column by column from its formulation: f = −K u − C v. For set-up code and
 // tests. Degree of freedom 3 a + i is component i of corner a.
 #pragma once
-#ifndef EIGEN_DONT_VECTORIZE
-#define EIGEN_DONT_VECTORIZE  // what it computes should not depend on the instruction set
-#endif
 #include <Eigen/Core>
 
 #include "fe/hooke.hpp"

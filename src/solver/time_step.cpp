@@ -8,6 +8,7 @@
 #include "coupling/ghosts.hpp"
 #include "de/bonds.hpp"
 #include "fe/elements.hpp"
+#include "fe/formulations.hpp"
 
 namespace geist {
 namespace {
@@ -35,12 +36,28 @@ NodeBounds node_bounds(const Model& model) {
   return at;
 }
 
+bool has_viscous_control(const HexRegion& region) {
+  bool viscous = false;
+  fe::visit_formulation(region.formulation, fe::parameters(region),
+                        [&](const auto& formulation) { viscous = formulation.uses_velocity; });
+  return viscous;
+}
+
+/// Smallest ω² that bounds a node with ω_e² from its elements and g from its ghosts. Viscous control with the
+/// velocity of half a step before grows with ω itself (K + ωC ≤ ω ω_e M), so there ω² ≥ ω ω_e + g.
+double combined(double omega2_e, double g, bool viscous) {
+  if (!viscous) return omega2_e + g;
+  const double omega = (std::sqrt(omega2_e) + std::sqrt(omega2_e + 4 * g)) / 2;
+  return omega * omega;
+}
+
 TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBounds& at) {
+  const bool viscous = has_viscous_control(region);
   double worst = 0;
   std::int32_t node = 0;
   for (std::size_t e = region.first; e < region.first + region.count; ++e)
     for (const std::int32_t i : mesh.elements[e]) {
-      const double omega2 = (at.elements[i] + at.ghosts[i]) / mesh.mass[i];
+      const double omega2 = combined(at.elements[i] / mesh.mass[i], at.ghosts[i] / mesh.mass[i], viscous);
       if (omega2 > worst) worst = omega2, node = i;
     }
   const Vec3 p = mesh.points[node];
