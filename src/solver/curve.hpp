@@ -18,7 +18,7 @@ struct Curve {
     if (after == points.end()) return points.back()[1];
     const auto before = after - 1;
     const double s = (t - (*before)[0]) / ((*after)[0] - (*before)[0]);
-    return (1 - s) * (*before)[1] + s * (*after)[1];
+    return (*before)[1] + s * ((*after)[1] - (*before)[1]);  // exactly constant where it should be
   }
 
   /// From when on the value does not change any more.

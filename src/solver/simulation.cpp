@@ -67,7 +67,8 @@ void Simulation::step(bool observe) {
 void Simulation::start() {
   supports.halt(model);
   keep_velocities();
-  for (Load& load : loads) load.t_settled = model.time;
+  settle(loads, model, model.time);
+  for (Load& load : loads) load.work = 0;  // counts from here
   forces_and_kick(dt / 2, false);
   reflect(model.mesh.v_before, model.mesh.v);
   for (Lattice& lattice : model.lattices) reflect(lattice.velocity_before, lattice.velocity);
@@ -102,7 +103,7 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
     sums += kick_nodes(model.mesh, kick);    // (16)(25)
     for (Lattice& lattice : model.lattices)  // ghosts' spins; loaded and supported particles
       sums += weighted(de::kick_listed(lattice, for_lattice(kick, lattice)), lattice);
-    supports.apply(model, dt, arrived);
+    supports.apply(model, dt, gravity(loads, model.time), arrived);
   }
   account(sums, kick_dt, arrived);
   const double damping_power =

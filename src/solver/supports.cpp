@@ -35,12 +35,13 @@ double Motion::velocity(double t, double dt) const {
   return 0;
 }
 
-void Supports::apply(Model& model, double dt, bool arrived) {
+void Supports::apply(Model& model, double dt, Vec3 gravity, bool arrived) {
   velocities.resize(motions.size());
   for (std::size_t m = 0; m < motions.size(); ++m) velocities[m] = motions[m].velocity(model.time, dt);
   for (HeldComponent& h : held) {
     const double after = velocities[h.motion], before = h.velocity;
-    const double reaction = mass_of(model, h) * (after - before) / dt - force_on(model, h);
+    const double acceleration = (after - before) / dt - (h.component < 3 ? gravity[h.component] : 0);
+    const double reaction = mass_of(model, h) * acceleration - force_on(model, h);
     if (arrived) work += 0.5 * (h.reaction + reaction) * before * dt;
     h.reaction = reaction, h.velocity = after;
     velocity_of(model, h) = after;

@@ -36,9 +36,9 @@ struct Supports {
   std::vector<double> velocities;  ///< by motion, for the present step
 
   /// Prescribe the velocities of the step from model.time to model.time + dt, reckon the reactions
-  /// R = m (v⁺ − v⁻)/dt − f, and add the work ½ (R^{n−1} + R^n) v⁻ dt of the step before.
+  /// R = m ((v⁺ − v⁻)/dt − g) − f, and add the work ½ (R^{n−1} + R^n) v⁻ dt of the step before.
   /// `arrived`: whether there was a step before.
-  void apply(Model& model, double dt, bool arrived);
+  void apply(Model& model, double dt, Vec3 gravity, bool arrived);
 
   /// Bring what is held to rest, whatever its initial velocity says.
   void halt(Model& model);

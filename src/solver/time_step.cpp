@@ -9,6 +9,7 @@
 #include "de/bonds.hpp"
 #include "fe/elements.hpp"
 #include "fe/formulations.hpp"
+#include "fe/parameters.hpp"
 
 namespace geist {
 namespace {
