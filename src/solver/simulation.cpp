@@ -106,10 +106,13 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
     supports.apply(model, dt, gravity(loads, model.time), arrived);
   }
   account(sums, kick_dt, arrived);
-  const double damping_power =
-      2 * alpha * kinetic_ + power;  // Σ α m v² and that of viscous hourglass control
-  if (arrived) damping_work_ += 0.5 * dt * (damping_power_ + damping_power);
-  damping_power_ = damping_power;
+  // Trapezoidal rule on Σ α m v². Hourglass control is reckoned with v^{n−½}, so that its work over the step
+  // from n − 1 is ½ Δt (v^{n−3/2} + v^{n−½})·C v^{n−½}, which from the powers at both is known to second
+  // order.
+  const double damping_power = 2 * alpha * kinetic_;
+  if (arrived)
+    damping_work_ += dt * (0.5 * (damping_power_ + damping_power) + 0.25 * hourglass_power_ + 0.75 * power);
+  damping_power_ = damping_power, hourglass_power_ = power;
 }
 
 void Simulation::account(const de::KickSums& sums, double kick_dt, bool arrived) {

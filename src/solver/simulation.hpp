@@ -52,7 +52,7 @@ class Simulation {
   void account(const de::KickSums& sums, double kick_dt, bool arrived);
 
   double damping_work_ = 0;  ///< of α and of viscous hourglass control
-  double damping_power_ = 0;
+  double damping_power_ = 0, hourglass_power_ = 0;
   double kinetic_ = 0, after_ = 0, force_after_ = 0, frequency_squared_ = 0;
   double initial_energy_ = 0;
 };
