@@ -1,0 +1,92 @@
+#include "subjects.hpp"
+
+#include <fmt/format.h>
+
+#include "case/read.hpp"
+#include "clock.hpp"
+#include "de/bonds.hpp"
+#include "fe/elements.hpp"
+#include "solver/nodes.hpp"
+
+namespace geist::bench {
+namespace {
+
+/// The case: particles of diameter 1, or elements of edge 1. The spin makes everything move from the first
+/// step on, so that no number is zero or denormal.
+std::string case_text(const std::string& name, int edge) {
+  const std::string region = name == "lattice" ? std::string("type = \"lattice\"\nradius = 0.5\n")
+                                               : fmt::format(
+                                                     "type = \"hexahedra\"\ndivisions = [{0}, {0}, {0}]\n"
+                                                     "formulation = \"{1}\"\n",
+                                                     edge, name);
+  return fmt::format(R"(title = "benchmark"
+units = {{ length = "mm", mass = "g", time = "ms" }}
+[materials.polymer]
+density = 0.001
+young = 1000
+poisson = 0.2
+[regions.body]
+material = "polymer"
+box = [[0, 0, 0], [{0}, {0}, {0}]]
+{1}
+[[supports]]
+where = {{ x = 0 }}
+fix = ["x", "y", "z"]
+[[loads]]
+where = {{ x = {0} }}
+total_force = [{2}, 0, 0]
+[[initial]]
+spin = [0.01, 0.02, 0.03]
+[analysis]
+type = "dynamic"
+duration = 1e6
+)",
+                     edge, region, edge * edge);
+}
+
+void add_lattice_kernels(Subject& s) {
+  Lattice& lattice = s.simulation().model.lattices.front();
+  s.items = static_cast<double>(lattice.count(site::particle));
+  s.working_set = lattice.grid.size() * (12 * sizeof(double) + sizeof(std::uint32_t));
+  s.kernels = {
+      {"bond forces and kick", [&] { de::bond_forces_and_kick(lattice, de::Kick{}); }, bonds_and_kick()},
+      {"drift", [&] { drift(lattice.motion, lattice.velocity, 0); }, lattice_drift()}};
+}
+
+void add_element_kernels(Subject& s) {
+  Mesh& mesh = s.simulation().model.mesh;
+  s.items = static_cast<double>(mesh.elements.size());
+  s.working_set = mesh.corner_force.size() * sizeof(double) + mesh.blocks.size() * sizeof(HexBlock) +
+                  (mesh.gather.size() + mesh.nodes()) * sizeof(std::int32_t) +
+                  mesh.nodes() * (13 * sizeof(double) + 1);
+  s.kernels = {{"internal forces", [&] { fe::internal_forces(mesh); }, internal_forces(s.name)},
+               {"gather and kick",
+                [&] {
+                  gather_internal_forces(mesh);
+                  kick_nodes(mesh, de::Kick{});
+                },
+                gather_and_kick()},
+               {"drift", [&] { drift(mesh.u, mesh.v, 0); }, node_drift()}};
+}
+
+}  // namespace
+
+std::string Subject::size() const { return fmt::format("{0}x{0}x{0}", edge); }
+
+std::unique_ptr<Subject> make_subject(const std::string& name, int edge) {
+  auto subject = std::make_unique<Subject>();
+  subject->name = name, subject->edge = edge;
+  const double begin = now();
+  subject->built = build(read_case_text(case_text(name, edge), "benchmark"));
+  subject->build_seconds = now() - begin;
+  if (name == "lattice")
+    add_lattice_kernels(*subject);
+  else
+    add_element_kernels(*subject);
+  for (const Kernel& k : subject->kernels) subject->step = subject->step + k.work;
+  subject->simulation().start();
+  for (int i = 0; i < 5; ++i) subject->simulation().step(false);
+  return subject;
+}
+
+}  // namespace geist::bench
