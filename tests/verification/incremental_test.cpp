@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "core/parallel.hpp"
+#include "verification/bodies.hpp"
 #include "verification/support.hpp"
 
 namespace geist::verification {
@@ -17,81 +18,6 @@ namespace {
 
 constexpr double promised = 1e-10;
 constexpr int steps = 4000;
-
-/// A lattice in the corner of an L of hexahedra: it meets them at x = 1 and y = 1.
-constexpr const char* box_in_an_L = R"(
-units = { length = "mm", mass = "g", time = "ms" }
-[materials.polymer]
-density = 0.001
-young = 1000
-poisson = 0.2
-[materials.stiff]
-density = 0.002
-young = 1500
-poisson = 0.3
-[regions.foot]
-type = "hexahedra"
-material = "polymer"
-box = [[0, 0, 0], [2, 1, 1]]
-divisions = [4, 2, 2]
-formulation = "selective-reduced"
-[regions.wall]
-type = "hexahedra"
-material = "stiff"
-box = [[0, 1, 0], [1, 2, 1]]
-divisions = [2, 2, 2]
-formulation = "full"
-[regions.corner]
-type = "lattice"
-material = "polymer"
-box = [[1, 1, 0], [2, 2, 1]]
-radius = 0.125
-[[supports]]
-where = { x = 0 }
-fix = ["x", "y", "z"]
-[[loads]]
-where = { x = 2 }
-total_force = [0.3, -1, 2]
-[[initial]]
-velocity = [1, -2, 0.5]
-spin = [0.4, 2, -1]
-[analysis]
-type = "dynamic"
-duration = 1
-)";
-
-/// An L of particles around a block of distorted hexahedra: every ghost lies in that block.
-constexpr const char* L_around_a_box = R"(
-units = { length = "mm", mass = "g", time = "ms" }
-[materials.polymer]
-density = 0.001
-young = 1000
-poisson = 0.15
-[regions.block]
-type = "hexahedra"
-material = "polymer"
-corners = [[-0.3, -0.2, 0], [1, 0.1, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0.1, 1, 1]]
-divisions = [2, 2, 2]
-formulation = "one-point"
-[regions.around]
-type = "lattice"
-material = "polymer"
-boxes = [[[1, 0.2, 0], [1.6, 1.6, 1]], [[0.2, 1, 0], [1.6, 1.6, 1]]]
-radius = 0.1
-rotary_inertia = "cube"
-[[supports]]
-where = { x = 1.6 }
-fix = ["x", "y", "z", "rx", "ry", "rz"]
-[[loads]]
-where = { z = 1 }
-traction = [0.5, 1, -1]
-[[initial]]
-where = { region = "block" }
-velocity = [3, 0, -1]
-[analysis]
-type = "dynamic"
-duration = 1
-)";
 
 /// Largest difference and largest value of one quantity.
 struct Comparison {
