@@ -3,25 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bounds.hpp"
+
 namespace geist {
 namespace {
 
-bool has_plane(const Where& where) {
-  return std::any_of(where.axis.begin(), where.axis.end(), [](const auto& a) { return a && a->plane(); });
+/// Whether faces may lie in it: in one plane they do, but two make an edge and three a point.
+bool may_hold_faces(const Where& where) {
+  return std::count_if(where.axis.begin(), where.axis.end(), [](const auto& a) { return a && a->plane(); }) ==
+         1;
 }
 
 }  // namespace
 
-Selector::Selector(const Model& model) : model_(model), facets_(exterior_facets(model.mesh)) {
-  double extent = 0;
-  for (const Vec3 p : model.mesh.points)
-    extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  for (const Lattice& l : model.lattices) {
-    const Vec3 end = l.grid.centre(l.grid.nx, l.grid.ny, l.grid.nz);
-    for (const Vec3 p : {l.grid.origin, end})
-      extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  slack_ = 1e-8 * extent;
+Selector::Selector(const Model& model)
+    : model_(model), facets_(exterior_facets(model.mesh)), bounds_(geist::bounds(model)) {
+  for (int c = 0; c < 3; ++c)
+    slack_ = std::max({slack_, 1e-8 * std::abs(bounds_.low[c]), 1e-8 * std::abs(bounds_.high[c])});
   for (const HexRegion& region : model.mesh.regions) {
     std::vector<bool>& in = node_in_region_.emplace_back(model.mesh.nodes(), false);
     for (std::size_t e = region.first; e < region.first + region.count; ++e)
@@ -64,6 +62,7 @@ Selection Selector::select(const Where& where) const {
 }
 
 double Selector::exposed_area(const Where& where, const ParticleId& particle) const {
+  if (!may_hold_faces(where)) return 0;
   const Lattice& lattice = model_.lattices[particle.lattice];
   const Grid& grid = lattice.grid;
   const auto at = grid.ijk(particle.site);
@@ -85,7 +84,7 @@ double Selector::exposed_area(const Where& where, const ParticleId& particle) co
 
 std::vector<double> Selector::node_areas(const Where& where) const {
   std::vector<double> area(model_.mesh.nodes(), 0.0);
-  if (!has_plane(where)) return area;
+  if (!may_hold_faces(where)) return area;
   for (const Facet& facet : facets_) {
     if (!std::all_of(facet.node.begin(), facet.node.end(), [&](auto n) { return node_in(where, n); }))
       continue;
