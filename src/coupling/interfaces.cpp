@@ -101,16 +101,16 @@ std::optional<Clash> around_particle(const Lattice& lattice, std::size_t s, cons
   const Grid& grid = lattice.grid;
   const Vec3 x = grid.centre(s);
   const auto [i, j, k] = grid.ijk(s);
-  bool surface = false;
-  for (const auto& [a, b, c] : directions) {
-    if (std::abs(a) + std::abs(b) + std::abs(c) != 1) continue;
-    if (grid.contains(i + a, j + b, k + c) && lattice.is(grid.index(i + a, j + b, k + c), site::particle))
-      continue;
-    surface = true;
-    const Vec3 step{double(a), double(b), double(c)};
+  std::vector<Vec3> outward;  // steps across the faces that no particle of its own lattice covers
+  for (const auto& [a, b, c] : directions)
+    if (std::abs(a) + std::abs(b) + std::abs(c) == 1 &&
+        !(grid.contains(i + a, j + b, k + c) && lattice.is(grid.index(i + a, j + b, k + c), site::particle)))
+      outward.push_back({double(a), double(b), double(c)});
+  if (outward.empty()) return std::nullopt;
+  if (auto clash = overlap(lattice, x, around)) return clash;
+  for (const Vec3 step : outward)
     if (auto clash = across_face(lattice, x, step, around)) return clash;
-  }
-  return surface ? overlap(lattice, x, around) : std::nullopt;
+  return std::nullopt;
 }
 
 /// A node of a region's surface that lies in a hexahedron which it is no corner of.
