@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
 
 #include "core/parallel.hpp"
 #include "de/bonds.hpp"
 #include "fe/elements.hpp"
+#include "geometry/bounds.hpp"
 #include "output/console.hpp"
 
 namespace geist {
@@ -69,22 +68,6 @@ std::string time_step(const Case& input, const Built& built, const output::UnitS
   return text;
 }
 
-/// Edges of the box around everything, longest first.
-std::array<double, 3> extents(const Model& model) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  Vec3 low{inf, inf, inf}, high = -low;
-  const auto widen = [&](Vec3 p, double r) {
-    for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c] - r), high[c] = std::max(high[c], p[c] + r);
-  };
-  for (const Vec3 p : model.mesh.points) widen(p, 0);
-  for (const Lattice& l : model.lattices)
-    for (std::size_t s = 0; s < l.grid.size(); ++s)
-      if (l.is(s, site::particle)) widen(l.grid.centre(s), l.radius());
-  std::array<double, 3> edges{high.x - low.x, high.y - low.y, high.z - low.z};
-  std::sort(edges.begin(), edges.end(), std::greater<>());
-  return edges;
-}
-
 /// Steps of dynamic relaxation if the body bends like a cantilever of the box around it: its lowest frequency
 /// is ω = 3.516 √(E/12ρ) h/L², and the residual falls by e in 1/ω.
 double relaxation_steps(const Case& input, const Built& built) {
@@ -93,8 +76,10 @@ double relaxation_steps(const Case& input, const Built& built) {
     const Material& m = input.materials.at(region.material);
     c = std::min(c, std::sqrt(m.young / m.density));
   }
-  const auto edges = extents(built.simulation.model);
-  const double omega = 3.516 / std::sqrt(12.0) * c * edges[2] / (edges[0] * edges[0]);
+  const Box box = bounds(built.simulation.model);
+  const Vec3 edge = box.high - box.low;
+  const auto [h, L] = std::minmax({edge.x, edge.y, edge.z});
+  const double omega = 3.516 / std::sqrt(12.0) * c * h / (L * L);
   return std::log(1 / input.analysis.tolerance) / (omega * built.simulation.dt);
 }
 

@@ -24,6 +24,9 @@ class Selector {
   /// particles' centres within it.
   Selection select(const Where& where) const;
 
+  /// The box around everything there is to select.
+  const Box& bounds() const { return bounds_; }
+
   /// Shares of a total of 1, by place of `nodes` and `particles` in the selection.
   struct Shares {
     std::vector<double> nodes, particles;
@@ -41,6 +44,7 @@ class Selector {
 
   const Model& model_;
   std::vector<Facet> facets_;
+  Box bounds_;
   std::vector<std::vector<bool>> node_in_region_;  ///< by region of hexahedra, by node
   double slack_ = 0;                               ///< a length that is nothing
 };
