@@ -17,8 +17,13 @@ constexpr std::array<const char*, 6> component_names{"x", "y", "z", "rx", "ry", 
 
 Selection select_some(const Case& input, const Selector& selector, const Where& where) {
   Selection found = selector.select(where);
+  const Box& all = selector.bounds();
   if (found.empty())
-    throw error_at(input, where.source, "selects nothing: no node lies and no particle touches there");
+    throw error_at(
+        input, where.source,
+        fmt::format("selects nothing: no node lies and no particle touches there; everything is within "
+                    "x = [{:.6g}, {:.6g}], y = [{:.6g}, {:.6g}], z = [{:.6g}, {:.6g}]",
+                    all.low.x, all.high.x, all.low.y, all.high.y, all.low.z, all.high.z));
   return found;
 }
 
