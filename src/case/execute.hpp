@@ -26,8 +26,8 @@ enum ExitCode {
   exit_interrupted = 130
 };
 
-/// Build the case, run it, and write case-as-run.toml, history.csv, fields and summary.json. Returns the exit code.
-/// Throws CaseError before anything is written if the case cannot be built, std::runtime_error if the
+/// Build the case, run it, and write case-as-run.toml, history.csv, fields and summary.json. Returns the exit
+/// code. Throws CaseError before anything is written if the case cannot be built, std::runtime_error if the
 /// directory holds results and `force` is not given, or cannot be written.
 int execute(const Case& input, const ExecuteOptions& options);
 
