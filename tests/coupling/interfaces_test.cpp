@@ -116,6 +116,11 @@ TEST(Clash, OfAThinGap) {
   }
 }
 
+TEST(Clash, OfAThinGapBeforeAThinSheet) {
+  expect_clash(with_lattice().hexahedra("foil", {{-0.01, 0, 0}, {-0.004, 1, 1}}, {1, 2, 2}), "stone", "foil",
+               {"gap thinner than a particle"});
+}
+
 TEST(Clash, OfHexahedraTooThinForAGhost) {
   for (const double thin : {0.02, 0.06, 0.12})
     expect_clash(with_lattice().hexahedra("foil", {{-thin, 0, 0}, {0, 1, 1}}, {1, 1, 1}), "stone", "foil",
