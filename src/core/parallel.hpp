@@ -18,33 +18,39 @@ namespace geist {
 /// Number of threads that loops use.
 inline int threads() { return omp_get_max_threads(); }
 
-/// Processors that this process may run on.
-inline std::vector<int> allowed_processors() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  sched_getaffinity(0, sizeof set, &set);
-  std::vector<int> list;
-  for (int i = 0; i < CPU_SETSIZE; ++i)
-    if (CPU_ISSET(i, &set)) list.push_back(i);
-  return list;
+/// Processors that this process was allowed to run on when it first asked.
+inline const std::vector<int>& allowed_processors() {
+  static const std::vector<int> processors = [] {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    sched_getaffinity(0, sizeof set, &set);
+    std::vector<int> list;
+    for (int i = 0; i < CPU_SETSIZE; ++i)
+      if (CPU_ISSET(i, &set)) list.push_back(i);
+    return list;
+  }();
+  return processors;
 }
 
 /// Use n threads (n ≤ 0: one per allowed processor), each bound to one processor, beginning with the one we
-/// run on. Whoever sets OMP_PROC_BIND, or asks for more threads than processors, has bound them already or
-/// does not want it.
+/// run on. A single thread, or more threads than processors, may run on any; who sets OMP_PROC_BIND has
+/// decided already.
 inline void set_threads(int n) {
-  static const std::vector<int> processors = allowed_processors();  // before any binding of ours
+  const std::vector<int>& processors = allowed_processors();
   const int available = static_cast<int>(processors.size());
   omp_set_num_threads(n > 0 ? n : available);
   omp_set_dynamic(0);
-  if (std::getenv("OMP_PROC_BIND") || threads() > available || threads() == 1) return;
+  if (std::getenv("OMP_PROC_BIND")) return;
+  const bool bind = threads() > 1 && threads() <= available;
   const auto here = std::find(processors.begin(), processors.end(), sched_getcpu()) - processors.begin();
 #pragma omp parallel
   {
-    cpu_set_t one;
-    CPU_ZERO(&one);
-    CPU_SET(processors[(here + omp_get_thread_num()) % available], &one);
-    pthread_setaffinity_np(pthread_self(), sizeof one, &one);
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (int i = 0; i < (bind ? 1 : available); ++i)
+      CPU_SET(processors[static_cast<std::size_t>(here + omp_get_thread_num() + i) % processors.size()],
+              &set);
+    pthread_setaffinity_np(pthread_self(), sizeof set, &set);
   }
 }
 

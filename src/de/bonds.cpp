@@ -1,12 +1,21 @@
 #include "de/bonds.hpp"
 
 #include <bit>
+#include <cstring>
 
 #include "core/parallel.hpp"
 #include "de/stencil.hpp"
 
 namespace geist::de {
 namespace {
+
+/// The words of eight sites.
+GEIST_INLINE PackInt words(const std::uint32_t* word) {
+  using Words = std::uint32_t __attribute__((vector_size(lanes * sizeof(std::uint32_t))));
+  Words w;
+  std::memcpy(&w, word, sizeof w);
+  return __builtin_convertvector(w, PackInt);
+}
 
 /// What the row kernel reads and writes, as plain pointers and numbers.
 struct RowKernel {
@@ -25,13 +34,6 @@ struct RowKernel {
     Pack across = {}, after = {}, spin_across = {}, spin_after = {};
   };
 
-  GEIST_INLINE PackInt words(std::size_t s) const {
-    using Words = std::uint32_t __attribute__((vector_size(lanes * sizeof(std::uint32_t))));
-    Words w;
-    __builtin_memcpy(&w, word + s, sizeof w);
-    return __builtin_convertvector(w, PackInt);
-  }
-
   /// Eight inner particles: every bond exists, all are advanced.
   GEIST_INLINE void inner(std::size_t s, Accumulated& sums) const {
     Pack f[6];
@@ -42,7 +44,7 @@ struct RowKernel {
 
   /// Eight sites of any kind; returns the next place in listed_force.
   GEIST_INLINE std::int32_t mixed(std::size_t s, std::int32_t slot, Accumulated& sums) const {
-    const PackInt w = words(s);
+    const PackInt w = words(word + s);
     Pack f[6];
     site_force(motion, s, offset, law, r, SomeBonds{w}, f);
     const PackInt free = -((w / site::free) & 1);
@@ -110,21 +112,32 @@ RowKernel row_kernel(Lattice& lattice, const Kick& kick) {
   return k;
 }
 
-/// Call visit(d, energy) for the bonds of site s in directions d ≥ `from`.
-template <class F>
-void visit_bonds(const Lattice& lattice, std::size_t s, int from, F visit) {
-  const MotionView x = view(lattice.motion);
-  const ElasticBond law = ElasticBond::from(lattice.material, lattice.radius());
-  [&]<int... D>(std::integer_sequence<int, D...>) {
-    ((D >= from && (lattice.word[s] >> D & 1)
-          ? visit(D, bond_energy<D>(x, s, lattice.grid.offset(D), law, lattice.radius()))
-          : void()),
-     ...);
-  }
-  (std::make_integer_sequence<int, 18>{});
-}
+/// Half the energy of every bond of the eight sites at s.
+struct SiteEnergies {
+  MotionView motion;
+  const std::uint32_t* word;
+  std::ptrdiff_t offset[18];
+  ElasticBond law;
+  double r;
 
-constexpr int forward = 9;  // directions 9–17 meet every bond once
+  explicit SiteEnergies(const Lattice& lattice)
+      : motion(view(lattice.motion)),
+        word(lattice.word.data()),
+        law(ElasticBond::from(lattice.material, lattice.radius())),
+        r(lattice.radius()) {
+    for (int d = 0; d < 18; ++d) offset[d] = lattice.grid.offset(d);
+  }
+
+  Pack at(std::size_t s) const {
+    const SomeBonds bonds{words(word + s)};
+    Pack energy = {};
+    [&]<int... D>(std::integer_sequence<int, D...>) {
+      ((energy = energy + bonds.keep<D>(bond_energy<D, Pack>(motion, s, offset[D], law, r))), ...);
+    }
+    (std::make_integer_sequence<int, 18>{});
+    return 0.5 * energy;
+  }
+};
 
 }  // namespace
 
@@ -165,28 +178,29 @@ KickSums kick_listed(Lattice& lattice, const Kick& kick) {
 }
 
 BondEnergies energies(const Lattice& lattice) {
-  return sum<BondEnergies>(lattice.grid.size(), [&lattice](std::size_t s) {
-    BondEnergies e;
-    if (!(lattice.word[s] & site::bonds)) return e;
-    visit_bonds(lattice, s, forward, [&](int d, double energy) {
-      const bool coupling = (lattice.word[s] | lattice.word[s + lattice.grid.offset(d)]) & site::ghost;
-      (coupling ? e.coupling : e.bonds) += energy;
-    });
-    return e;
+  // A coupling bond has half of its energy at a particle and half at a ghost, any other all of it at
+  // particles.
+  const SiteEnergies energy(lattice);
+  return sum<BondEnergies>(lattice.grid.size() / lanes, [energy](std::size_t pack) {
+    const Pack e = energy.at(lanes * pack);
+    BondEnergies sums;
+    for (int l = 0; l < lanes; ++l) {
+      const bool ghost = energy.word[lanes * pack + l] & site::ghost;
+      sums.bonds += ghost ? -e[l] : e[l];
+      sums.coupling += ghost ? 2 * e[l] : 0;
+    }
+    return sums;
   });
 }
 
 std::vector<double> site_energies(const Lattice& lattice) {
-  std::vector<double> energy(lattice.grid.size(), 0.0);
-  double* const out = energy.data();
-  for_each(
-      lattice.grid.size(),
-      [&lattice, out](std::size_t s) {
-        if (lattice.word[s] & site::bonds)
-          visit_bonds(lattice, s, 0, [&](int, double e) { out[s] += e / 2; });
-      },
-      1024);
-  return energy;
+  std::vector<double> energies(lattice.grid.size());
+  const SiteEnergies energy(lattice);
+  const auto store_pack = [energy, out = energies.data()](std::size_t pack) {
+    store(out + lanes * pack, energy.at(lanes * pack));
+  };
+  for_each(lattice.grid.size() / lanes, store_pack, 128);
+  return energies;
 }
 
 std::size_t bond_count(const Lattice& lattice) {

@@ -121,12 +121,12 @@ GEIST_INLINE void site_force(const MotionView& x, std::size_t s, const std::ptrd
   for (int c = 3; c < 6; ++c) f[c] = f[c] * r;
 }
 
-/// Energy ½ f·d of the bond in direction D at site s, as if it existed.
-template <int D>
-inline double bond_energy(const MotionView& x, std::size_t s, std::ptrdiff_t offset, const ElasticBond& law,
-                          double r) {
-  double i[6], j[6], d[3], f[3];
-  for (int c = 0; c < 6; ++c) i[c] = x.c[c][s], j[c] = x.c[c][s + offset];
+/// Energy ½ f·d of the bond in direction D at the site(s) at s, as if it existed.
+template <int D, class T>
+GEIST_INLINE T bond_energy(const MotionView& x, std::size_t s, std::ptrdiff_t offset, const ElasticBond& law,
+                           double r) {
+  T i[6], j[6], d[3], f[3];
+  for (int c = 0; c < 6; ++c) i[c] = read<T>(x.c[c] + s), j[c] = read<T>(x.c[c] + s + offset);
   relative_displacement<D>(i, j, r, d);
   law.force<directions[D][0], directions[D][1], directions[D][2]>(d, f);
   return 0.5 * (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);

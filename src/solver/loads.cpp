@@ -33,9 +33,15 @@ double conjugate_displacement(const Load& load, const Model& model) {
 void add_loads(const std::vector<Load>& loads, Model& model, double t) {
   for (const Load& load : loads) {
     const double c = load.curve.at(t);
-    for (const NodeForce& p : load.nodes) model.mesh.f.add(p.node, c * p.force);
-    for (const ParticleForce& p : load.particles)
+    const auto add_to_node = [&, c](std::size_t i) {
+      model.mesh.f.add(load.nodes[i].node, c * load.nodes[i].force);
+    };
+    const auto add_to_particle = [&, c](std::size_t i) {
+      const ParticleForce& p = load.particles[i];
       model.lattices[p.lattice].listed_force.add(p.slot, c * p.force);
+    };
+    for_each(load.nodes.size(), add_to_node, 2000);  // a load names a place once only
+    for_each(load.particles.size(), add_to_particle, 2000);
   }
 }
 

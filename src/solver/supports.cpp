@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/parallel.hpp"
+
 namespace geist {
 namespace {
 
@@ -38,14 +40,17 @@ double Motion::velocity(double t, double dt) const {
 void Supports::apply(Model& model, double dt, Vec3 gravity, bool arrived) {
   velocities.resize(motions.size());
   for (std::size_t m = 0; m < motions.size(); ++m) velocities[m] = motions[m].velocity(model.time, dt);
-  for (HeldComponent& h : held) {
+  const double done = sum<double>(held.size(), [this, &model, dt, gravity](std::size_t i) {
+    HeldComponent& h = held[i];
     const double after = velocities[h.motion], before = h.velocity;
     const double acceleration = (after - before) / dt - (h.component < 3 ? gravity[h.component] : 0);
     const double reaction = mass_of(model, h) * acceleration - force_on(model, h);
-    if (arrived) work += 0.5 * (h.reaction + reaction) * before * dt;
+    const double work_of_step = 0.5 * (h.reaction + reaction) * before * dt;
     h.reaction = reaction, h.velocity = after;
     velocity_of(model, h) = after;
-  }
+    return work_of_step;
+  });
+  if (arrived) work += done;
 }
 
 void Supports::halt(Model& model) {
