@@ -74,11 +74,11 @@ const RegionSpec& spec_of(const Case& input, const std::string& name) {
 /// Ghosts, bonds, state and lists of all lattices.
 void couple(Model& model, const Case& input) {
   const Locator locator(model.mesh);
+  const bool coupled = input.coupling == "ghost-particles";
   for (Lattice& lattice : model.lattices)
-    if (input.coupling == "ghost-particles") coupling::place_ghosts(lattice, model.mesh, locator);
-  if (input.coupling == "ghost-particles")
-    if (const auto clash = coupling::find_clash(model, locator))
-      throw error_at(input, spec_of(input, clash->first).source, clash->message);
+    if (coupled) coupling::place_ghosts(lattice, model.mesh, locator);
+  if (const auto clash = coupling::find_clash(model, locator, coupled))
+    throw error_at(input, spec_of(input, clash->first).source, clash->message);
   for (Lattice& lattice : model.lattices) {
     trim(lattice);
     connect(lattice);

@@ -35,6 +35,7 @@ struct Surroundings {
   const Model& model;
   const Locator& locator;
   const Lattice* self;
+  bool coupled;
 
   std::string lattice_at(Vec3 p) const {
     for (const Lattice& other : model.lattices)
@@ -109,7 +110,7 @@ std::optional<Clash> around_particle(const Lattice& lattice, std::size_t s, cons
   if (outward.empty()) return std::nullopt;
   if (auto clash = overlap(lattice, x, around)) return clash;
   for (const Vec3 step : outward)
-    if (auto clash = across_face(lattice, x, step, around)) return clash;
+    if (auto clash = around.coupled ? across_face(lattice, x, step, around) : std::nullopt) return clash;
   return std::nullopt;
 }
 
@@ -153,11 +154,11 @@ std::optional<Clash> centres_elsewhere(const Model& model, const Locator& locato
 
 }  // namespace
 
-std::optional<Clash> find_clash(const Model& model, const Locator& locator) {
+std::optional<Clash> find_clash(const Model& model, const Locator& locator, bool coupled) {
   if (auto clash = centres_elsewhere(model, locator)) return clash;
   if (auto clash = between_hexahedra(model, locator)) return clash;
   for (const Lattice& lattice : model.lattices) {
-    const Surroundings around{model, locator, &lattice};
+    const Surroundings around{model, locator, &lattice, coupled};
     for (std::size_t s = 0; s < lattice.grid.size(); ++s)
       if (lattice.is(s, site::particle))
         if (auto clash = around_particle(lattice, s, around)) return clash;

@@ -20,7 +20,8 @@ struct Clash {
 ///  - hexahedra touch a particle but are too thin to hold its ghost,
 ///  - two lattice regions touch (they would not be bonded),
 ///  - two regions of hexahedra overlap, or touch without sharing nodes.
-/// Ghosts have been placed; `locator` belongs to model.mesh.
-std::optional<Clash> find_clash(const Model& model, const Locator& locator);
+/// Ghosts have been placed; `locator` belongs to model.mesh. If lattices are not coupled to anything, only
+/// overlaps and what is wrong between hexahedra count.
+std::optional<Clash> find_clash(const Model& model, const Locator& locator, bool coupled = true);
 
 }  // namespace geist::coupling

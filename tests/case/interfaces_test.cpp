@@ -26,6 +26,15 @@ TEST(Interfaces, OverlapsAreRefused) {
                      {"'left'", "'third'", "overlap at ("});
 }
 
+TEST(Interfaces, UncoupledOnesMayHaveGapsButNotOverlap) {
+  const std::string uncoupled = "[coupling]\ntype = \"none\"\n";
+  const std::string overlapping = hexahedra("[[1.9, 0, 0], [3, 1, 1]]", "[2, 2, 2]");
+  expect_build_error(with_third(overlapping + uncoupled), "[regions.right]",
+                     {"'right'", "'third'", "overlap at ("});
+  const std::string gap = hexahedra("[[2.1, 0, 0], [3, 1, 1]]", "[2, 2, 2]");
+  EXPECT_NO_THROW(build(read_case_text(with_third(gap + uncoupled), "small.toml")));
+}
+
 TEST(Interfaces, ThinGapsAreRefused) {
   expect_build_error(with_third(hexahedra("[[2.1, 0, 0], [3, 1, 1]]", "[2, 2, 2]")), "[regions.right]",
                      {"'right'", "'third'", "gap thinner than a particle (2r = 0.25)"});
