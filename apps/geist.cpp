@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "case/build.hpp"
-#include "case/describe.hpp"
 #include "case/diagnostic.hpp"
-#include "case/execute.hpp"
 #include "case/read.hpp"
 #include "case/reference.hpp"
 #include "output/console.hpp"
+#include "session/describe.hpp"
+#include "session/execute.hpp"
 
 namespace {
 

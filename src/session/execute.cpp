@@ -1,4 +1,4 @@
-#include "case/execute.hpp"
+#include "session/execute.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "case/build.hpp"
-#include "case/describe.hpp"
 #include "core/parallel.hpp"
 #include "model/hash.hpp"
 #include "output/console.hpp"
@@ -19,6 +18,7 @@
 #include "output/history.hpp"
 #include "output/progress.hpp"
 #include "output/summary.hpp"
+#include "session/describe.hpp"
 #include "solver/run.hpp"
 
 namespace geist {

@@ -1,4 +1,4 @@
-#include "case/describe.hpp"
+#include "session/describe.hpp"
 
 #include <fmt/format.h>
 
