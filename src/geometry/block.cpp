@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -112,13 +112,14 @@ void append_block(Mesh& mesh, HexRegion region, const std::array<Vec3, 8>& corne
   const double size = size_of(corners),
                slack = 1e-7 * size / *std::max_element(divisions.begin(), divisions.end());
   NodeFinder earlier(mesh, slack);
-  std::map<std::array<int, 3>, std::int32_t> own;  // nodes of this block by grid position
-  const auto node_at = [&](const std::array<int, 3>& at, Vec3 p) {
-    const auto [it, fresh] = own.try_emplace(at, -1);
-    if (!fresh) return it->second;
-    it->second = earlier.find(p);
-    if (it->second < 0) it->second = static_cast<std::int32_t>(mesh.nodes()), mesh.points.push_back(p);
-    return it->second;
+  const auto [nx, ny, nz] = divisions;
+  std::vector<std::int32_t> own(static_cast<std::size_t>(nx + 1) * (ny + 1) * (nz + 1),
+                                -1);  // nodes by grid position
+  const auto node_at = [&, nx = nx, ny = ny](const std::array<int, 3>& at, Vec3 p) {
+    std::int32_t& node = own[(static_cast<std::size_t>(at[2]) * (ny + 1) + at[1]) * (nx + 1) + at[0]];
+    if (node < 0) node = earlier.find(p);
+    if (node < 0) node = static_cast<std::int32_t>(mesh.nodes()), mesh.points.push_back(p);
+    return node;
   };
   region.first = mesh.elements.size();
   for (int k = 0; k < divisions[2]; ++k)
@@ -144,24 +145,27 @@ void append_block(Mesh& mesh, HexRegion region, const std::array<Vec3, 8>& corne
 }
 
 std::vector<Facet> exterior_facets(const Mesh& mesh) {
-  const auto sorted = [](std::array<std::int32_t, 4> f) {
-    std::sort(f.begin(), f.end());
-    return f;
-  };
-  std::map<std::array<std::int32_t, 4>, int> uses;
-  const auto visit = [&](auto action) {
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-      for (const auto& corner : facet_corners) {
-        Facet facet{static_cast<std::int32_t>(e), {}};
-        for (int a = 0; a < 4; ++a) facet.node[a] = mesh.elements[e][corner[a]];
-        action(facet);
-      }
-  };
-  visit([&](const Facet& f) { ++uses[sorted(f.node)]; });
+  std::vector<Facet> all;
+  std::vector<std::array<std::int32_t, 4>> key;  // nodes in ascending order
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    for (const auto& corner : facet_corners) {
+      Facet& facet = all.emplace_back(Facet{static_cast<std::int32_t>(e), {}});
+      for (int a = 0; a < 4; ++a) facet.node[a] = mesh.elements[e][corner[a]];
+      auto& nodes = key.emplace_back(facet.node);
+      std::sort(nodes.begin(), nodes.end());
+    }
+  // Facets with the same lowest node are few: those that are equal are among them.
+  std::vector<std::size_t> begin(mesh.nodes() + 1, 0), order(all.size());
+  for (const auto& k : key) ++begin[k[0] + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (std::size_t f = 0; f < all.size(); ++f) order[next[key[f][0]]++] = f;
   std::vector<Facet> exterior;
-  visit([&](const Facet& f) {
-    if (uses[sorted(f.node)] == 1) exterior.push_back(f);
-  });
+  for (std::size_t f = 0; f < all.size(); ++f) {
+    const auto first = order.begin() + begin[key[f][0]], last = order.begin() + begin[key[f][0] + 1];
+    if (std::count_if(first, last, [&](std::size_t g) { return key[g] == key[f]; }) == 1)
+      exterior.push_back(all[f]);
+  }
   return exterior;
 }
 
