@@ -1,6 +1,7 @@
 #include "case/build.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <stdexcept>
 
@@ -9,6 +10,7 @@
 #include "coupling/interfaces.hpp"
 #include "fe/elements.hpp"
 #include "geometry/block.hpp"
+#include "geometry/bounds.hpp"
 #include "geometry/packing.hpp"
 
 namespace geist {
@@ -50,6 +52,36 @@ void at_region(const Case& input, const RegionSpec& spec, F make) {
     make();
   } catch (const std::invalid_argument& e) {
     throw error_at(input, spec.source, fmt::format("region '{}': {}", spec.name, e.what()));
+  }
+}
+
+/// Elements, or sites of the box around a lattice.
+double places(const RegionSpec& spec) {
+  if (const auto* hexahedra = std::get_if<HexahedraSpec>(&spec.shape))
+    return 1.0 * hexahedra->divisions[0] * hexahedra->divisions[1] * hexahedra->divisions[2];
+  const auto& lattice = std::get<LatticeSpec>(spec.shape);
+  const Box box = bounds(lattice.boxes);
+  const Vec3 edge = box.high - box.low, n = edge * (1 / (2 * lattice.radius));
+  return n.x * n.y * n.z;
+}
+
+/// The system grants more memory than there is and ends who uses it; so look first.
+void check_memory(const Case& input) {
+  constexpr double element = 1000, particle = 250,
+                   gibi = 1024.0 * 1024 * 1024;  // bytes while building, measured
+  const double there =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  double needed = 0;
+  for (const RegionSpec& spec : input.regions) {
+    const bool hexahedra = std::holds_alternative<HexahedraSpec>(spec.shape);
+    needed += places(spec) * (hexahedra ? element : particle);
+    if (needed > there)
+      throw error_at(
+          input, spec.source,
+          fmt::format("region '{}' has {:.3g} {}: the case needs about {:.3g} GiB of memory, and this "
+                      "machine has {:.3g}",
+                      spec.name, places(spec), hexahedra ? "hexahedra" : "sites", needed / gibi,
+                      there / gibi));
   }
 }
 
@@ -108,6 +140,7 @@ double choose_time_step(const Case& input, const std::vector<TimeStepBound>& bou
 Built build(const Case& input) {
   Built built;
   Simulation& sim = built.simulation;
+  check_memory(input);
   make_regions(sim.model, input);
   couple(sim.model, input);
   const Selector selector(sim.model);

@@ -20,4 +20,14 @@ Box bounds(const Model& model) {
   return box;
 }
 
+Box bounds(const std::vector<Box>& boxes) {
+  Box all = boxes.front();
+  for (const Box& b : boxes)
+    for (int c = 0; c < 3; ++c) {
+      all.low[c] = std::min(all.low[c], b.low[c]);
+      all.high[c] = std::max(all.high[c], b.high[c]);
+    }
+  return all;
+}
+
 }  // namespace geist

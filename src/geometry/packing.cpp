@@ -6,18 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/bounds.hpp"
+
 namespace geist {
 namespace {
-
-Box bounds_of(const std::vector<Box>& boxes) {
-  Box all = boxes.front();
-  for (const Box& b : boxes)
-    for (int c = 0; c < 3; ++c) {
-      all.low[c] = std::min(all.low[c], b.low[c]);
-      all.high[c] = std::max(all.high[c], b.high[c]);
-    }
-  return all;
-}
 
 /// How many pitches `length` is; it must be a whole number.
 int whole_pitches(double length, double pitch, const char* what) {
@@ -41,7 +33,7 @@ void check_on_grid(const std::vector<Box>& boxes, Vec3 low, double pitch) {
 
 void pack(Lattice& lattice, const std::vector<Box>& boxes, const std::vector<Shape>& minus, double radius) {
   const double pitch = 2 * radius, slack = 1e-9 * radius;
-  const Box all = bounds_of(boxes);
+  const Box all = bounds(boxes);
   check_on_grid(boxes, all.low, pitch);
   Grid& grid = lattice.grid;
   const auto sites = [&](int c) { return whole_pitches(all.high[c] - all.low[c], pitch, "the region") + 2; };

@@ -38,6 +38,28 @@ double steady_from(const Simulation& sim) {
   return end;
 }
 
+/// Region, number and position of the first element with a node, or else the first site, that meets a
+/// condition.
+template <class Node, class Site>
+std::string first_place(const Model& model, Node node_is_it, Site site_is_it) {
+  const Mesh& mesh = model.mesh;
+  for (const HexRegion& region : mesh.regions)
+    for (std::size_t e = region.first; e < region.first + region.count; ++e)
+      for (const std::int32_t i : mesh.elements[e])
+        if (const Vec3 p = mesh.points[i]; node_is_it(i))
+          return fmt::format("region '{}', element {}, node {} at ({:.6g}, {:.6g}, {:.6g})", region.name,
+                             e - region.first, i, p.x, p.y, p.z);
+  for (const Lattice& lattice : model.lattices)
+    for (std::size_t s = 0; s < lattice.grid.size(); ++s)
+      if (lattice.word[s] != 0 && site_is_it(lattice, s)) {
+        const auto [i, j, k] = lattice.grid.ijk(s);
+        const Vec3 p = lattice.grid.centre(s);
+        return fmt::format("region '{}', site ({}, {}, {}) at ({:.6g}, {:.6g}, {:.6g})", lattice.name, i, j,
+                           k, p.x, p.y, p.z);
+      }
+  return {};
+}
+
 /// One run under way.
 class Runner {
  public:
@@ -96,16 +118,17 @@ class Runner {
     outcome_ = {
         Status::failed,
         fmt::format("step {}, time {:.6g}: the energy balance is off by {:.2g} of the largest energy so far "
-                    "(allowed: {:.2g}); the time step may be too long",
+                    "(allowed: {:.2g}); the time step may be too long; what moves fastest is {}",
                     sim_.model.step, sim_.model.time, std::abs(l.balance()) / largest_,
-                    plan_.balance_tolerance),
+                    plan_.balance_tolerance, fastest(sim_.model)),
         {}};
   }
 
   void fail_not_finite(bool watched) {
+    const std::string place = first_not_finite(sim_.model);
     outcome_ = {Status::failed,
                 fmt::format("step {}, time {:.6g}: {} is not a number any more", sim_.model.step,
-                            sim_.model.time, first_not_finite(sim_.model)),
+                            sim_.model.time, place.empty() ? "the kinetic energy" : place),
                 {}};
     if (watched) last_.ledger = sim_.ledger();
   }
@@ -164,24 +187,25 @@ Outcome run(Simulation& sim, const RunPlan& plan, const std::vector<Observer*>& 
 }
 
 std::string first_not_finite(const Model& model) {
-  const Mesh& mesh = model.mesh;
   const auto finite = [](Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); };
-  for (const HexRegion& region : mesh.regions)
-    for (std::size_t e = region.first; e < region.first + region.count; ++e)
-      for (const std::int32_t i : mesh.elements[e])
-        if (!finite(mesh.u.vector(i)) || !finite(mesh.v.vector(i)))
-          return fmt::format("region '{}', element {}, node {} at ({:.6g}, {:.6g}, {:.6g})", region.name,
-                             e - region.first, i, mesh.points[i].x, mesh.points[i].y, mesh.points[i].z);
+  return first_place(
+      model,
+      [&](std::int32_t i) { return !finite(model.mesh.u.vector(i)) || !finite(model.mesh.v.vector(i)); },
+      [&](const Lattice& lattice, std::size_t s) {
+        return !finite(lattice.motion.vector(s)) || !finite(lattice.motion.vector(s, 3)) ||
+               !finite(lattice.velocity.vector(s)) || !finite(lattice.velocity.vector(s, 3));
+      });
+}
+
+std::string fastest(const Model& model) {
+  double most = 0;
+  for (std::size_t i = 0; i < model.mesh.nodes(); ++i) most = std::max(most, norm(model.mesh.v.vector(i)));
   for (const Lattice& lattice : model.lattices)
     for (std::size_t s = 0; s < lattice.grid.size(); ++s)
-      for (const int first : {0, 3})
-        if (!finite(lattice.motion.vector(s, first)) || !finite(lattice.velocity.vector(s, first))) {
-          const auto [i, j, k] = lattice.grid.ijk(s);
-          const Vec3 p = lattice.grid.centre(s);
-          return fmt::format("region '{}', site ({}, {}, {}) at ({:.6g}, {:.6g}, {:.6g})", lattice.name, i, j,
-                             k, p.x, p.y, p.z);
-        }
-  return {};
+      most = std::max(most, norm(lattice.velocity.vector(s)));
+  return first_place(
+      model, [&](std::int32_t i) { return norm(model.mesh.v.vector(i)) == most; },
+      [&](const Lattice& lattice, std::size_t s) { return norm(lattice.velocity.vector(s)) == most; });
 }
 
 }  // namespace geist

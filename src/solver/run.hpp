@@ -53,4 +53,7 @@ Outcome run(Simulation& sim, const RunPlan& plan, const std::vector<Observer*>& 
 /// are.
 std::string first_not_finite(const Model& model);
 
+/// Where the largest velocity is, in the same words.
+std::string fastest(const Model& model);
+
 }  // namespace geist

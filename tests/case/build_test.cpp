@@ -101,6 +101,14 @@ TEST(Build, SharesNodesOfRegionsThatTouch) {
   EXPECT_EQ(build(input).simulation.model.mesh.nodes(), 27u + 9);
 }
 
+TEST(Build, RefusesWhatDoesNotFitIntoMemory) {
+  const std::string huge =
+      "[regions.a]\ntype = \"hexahedra\"\nmaterial = \"m\"\nbox = [[0, 0, 0], [1, 1, 1]]\n"
+      "divisions = [1000, 1000, 1900]\n";
+  expect_build_error(materials + huge + dynamic, "[regions.a]",
+                     {"'a'", "1.9e+09 hexahedra", "GiB of memory"});
+}
+
 TEST(Build, NeedsNoCoupling) {
   const Case hexahedra =
       read_case_text(materials +

@@ -98,6 +98,7 @@ TEST(Run, RunawayEnergyStopsTheRun) {
   EXPECT_EQ(outcome.status, Status::failed);
   EXPECT_EQ(built.simulation.model.step, 100);
   EXPECT_NE(outcome.message.find("time step may be too long"), std::string::npos) << outcome.message;
+  EXPECT_NE(outcome.message.find("moves fastest is region '"), std::string::npos) << outcome.message;
   EXPECT_EQ(notes.rows.back(), 100);
   EXPECT_EQ(notes.pictures.back(), 100);
 }
