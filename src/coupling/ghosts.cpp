@@ -85,11 +85,10 @@ void Reactions::add(Model& model) const {
   for_each(nodes_.size(), add_one, 500);
 }
 
-std::vector<double> Reactions::virtual_masses(const Model& model) {
-  std::vector<double> mass(model.mesh.nodes(), 0.0);
-  for (const Lattice& lattice : model.lattices)
-    for (const Ghost& ghost : lattice.ghosts)
-      for (int I = 0; I < 8; ++I) mass[model.mesh.elements[ghost.element][I]] += ghost.N[I] * lattice.mass;
+std::vector<double> virtual_masses(const Lattice& lattice, const Mesh& mesh) {
+  std::vector<double> mass(mesh.nodes(), 0.0);
+  for (const Ghost& ghost : lattice.ghosts)
+    for (int I = 0; I < 8; ++I) mass[mesh.elements[ghost.element][I]] += ghost.N[I] * lattice.mass;
   return mass;
 }
 

@@ -23,6 +23,9 @@ void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator);
 /// Displacement of all ghosts from that of the nodes.
 void follow(Lattice& lattice, const Mesh& mesh);
 
+/// By node I, the mass that the ghosts would bring to it if they had that of a particle: Σ N_I m_d.
+std::vector<double> virtual_masses(const Lattice& lattice, const Mesh& mesh);
+
 /// The transpose of follow: which ghost forces act on which nodes, in fixed order.
 class Reactions {
  public:
@@ -31,10 +34,6 @@ class Reactions {
 
   /// mesh.f += Σ N_I f_g over all ghosts of all lattices (14).
   void add(Model& model) const;
-
-  /// Mass that the ghosts would bring to node I if they had that of a particle: Σ N_I m_d (for the time
-  /// step's bound).
-  static std::vector<double> virtual_masses(const Model& model);
 
  private:
   struct Entry {

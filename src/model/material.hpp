@@ -12,8 +12,6 @@ struct Material {
 
   double lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }
   double mu() const { return young / (2 * (1 + poisson)); }
-  /// Plane longitudinal wave's modulus λ + 2μ.
-  double p_modulus() const { return lambda() + 2 * mu(); }
 };
 
 }  // namespace geist

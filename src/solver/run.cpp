@@ -83,10 +83,11 @@ class Runner {
   }
 
  private:
+  bool reaches_end_time(long step) const {
+    return plan_.end_time > 0 && static_cast<double>(step) * sim_.dt >= plan_.end_time * (1 - 1e-12);
+  }
   bool ends_at(long step) const {
-    const bool over =
-        plan_.end_time > 0 && static_cast<double>(step) * sim_.dt >= plan_.end_time * (1 - 1e-12);
-    return over || step >= plan_.max_steps || (plan_.stop && *plan_.stop);
+    return reaches_end_time(step) || step >= plan_.max_steps || (plan_.stop && *plan_.stop);
   }
 
   void advance() {
@@ -140,8 +141,6 @@ class Runner {
     if (plan_.quasi_static && observed && sim_.model.step > 0 && last_.residual <= plan_.tolerance)
       return true;
     if (!ends_at(sim_.model.step) || !observed) return false;  // a signal may come after the step was chosen
-    const bool done =
-        plan_.end_time > 0 && static_cast<double>(sim_.model.step) * sim_.dt >= plan_.end_time * (1 - 1e-12);
     if (plan_.stop && *plan_.stop)
       outcome_ = {Status::interrupted, fmt::format("stopped by a signal at step {}", sim_.model.step), {}};
     else if (plan_.quasi_static)
@@ -150,7 +149,7 @@ class Runner {
           fmt::format("no equilibrium after {} steps: the residual is {:.2g} of the load, wanted {:.2g}",
                       sim_.model.step, last_.residual, plan_.tolerance),
           {}};
-    else if (!done)
+    else if (!reaches_end_time(sim_.model.step))
       outcome_ = {
           Status::not_converged,
           fmt::format("stopped after max_steps = {} at time {:.6g}", plan_.max_steps, sim_.model.time),

@@ -79,7 +79,8 @@ void Simulation::start() {
 }
 
 void Simulation::forces_and_kick(double kick_dt, bool arrived) {
-  const de::Kick kick = make_kick(alpha, kick_dt, gravity(loads, model.time));
+  const Vec3 g = gravity(loads, model.time);
+  const de::Kick kick = make_kick(alpha, kick_dt, g);
   de::KickSums sums;
   {
     const auto timing = timers.time(Phase::coupling);
@@ -103,7 +104,7 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
     sums += kick_nodes(model.mesh, kick);    // (16)(25)
     for (Lattice& lattice : model.lattices)  // ghosts' spins; loaded and supported particles
       sums += weighted(de::kick_listed(lattice, for_lattice(kick, lattice)), lattice);
-    supports.apply(model, dt, gravity(loads, model.time), arrived);
+    supports.apply(model, dt, g, arrived);
   }
   account(sums, kick_dt, arrived);
   // Trapezoidal rule on Σ α m v². Hourglass control is reckoned with v^{n−½}, so that its work over the step

@@ -30,9 +30,8 @@ NodeBounds node_bounds(const Model& model) {
   for (const Lattice& lattice : model.lattices) {
     if (lattice.ghosts.empty()) continue;
     const double omega2_L = de::largest_frequency_squared(lattice);
-    for (const Ghost& ghost : lattice.ghosts)
-      for (int a = 0; a < 8; ++a)
-        at.ghosts[mesh.elements[ghost.element][a]] += omega2_L * ghost.N[a] * lattice.mass;
+    const std::vector<double> mass = coupling::virtual_masses(lattice, mesh);
+    for (std::size_t i = 0; i < mass.size(); ++i) at.ghosts[i] += omega2_L * mass[i];
   }
   return at;
 }
