@@ -6,24 +6,18 @@
 #include <cmath>
 
 #include "case/rules.hpp"
+#include "geometry/packing.hpp"
 
 namespace geist {
 
 namespace {
 
-constexpr double tolerance = 1e-6;   // of a length that must be a whole number of pitches
 constexpr double most_places = 2e9;  // sites or elements in a region, nodes or sites along an axis
 constexpr double most_radii_tried = 1e4;
 constexpr std::array<char, 3> axes{'x', 'y', 'z'};
 
-/// Is the length a whole number of pitches?
-bool whole(double length, double pitch) {
-  const double ratio = length / pitch;
-  return std::abs(ratio - std::round(ratio)) <= tolerance * std::max(1.0, std::abs(ratio));
-}
-
 bool all_whole(const std::vector<double>& lengths, double pitch) {
-  return std::all_of(lengths.begin(), lengths.end(), [&](double length) { return whole(length, pitch); });
+  return std::all_of(lengths.begin(), lengths.end(), [&](double length) { return is_whole(length, pitch); });
 }
 
 /// Every length that must be a whole number of pitches: the boxes' edges and their offsets from the first
@@ -82,7 +76,7 @@ bool check_edges(Document& document, const View& region, const Packing& packing)
   for (const Box& box : packing.boxes) {
     for (std::size_t a = 0; a < 3; ++a) {
       const double length = box.high[a] - box.low[a], pitch = 2 * packing.radius;
-      if (whole(length, pitch) && std::round(length / pitch) >= 1) continue;
+      if (is_whole(length, pitch) && std::round(length / pitch) >= 1) continue;
       document.report(
           place_of(region, packing),
           fmt::format("the edge along {} of '{}', {:.10g} long, is not a whole number of diameters {:.10g}{}",
@@ -99,7 +93,7 @@ bool check_offsets(Document& document, const View& region, const Packing& packin
   for (std::size_t b = 1; b < packing.boxes.size(); ++b) {
     for (std::size_t a = 0; a < 3; ++a) {
       const double offset = packing.boxes[b].low[a] - first.low[a], pitch = 2 * packing.radius;
-      if (whole(offset, pitch)) continue;
+      if (is_whole(offset, pitch)) continue;
       document.report(region.place(packing.key),
                       fmt::format("box {} is not on the grid of the first one: it lies {:.10g} further along "
                                   "{}, which is not a whole number of diameters {:.10g}",

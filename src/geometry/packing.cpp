@@ -14,7 +14,7 @@ namespace {
 /// How many pitches `length` is; it must be a whole number.
 int whole_pitches(double length, double pitch, const char* what) {
   const double n = std::round(length / pitch);
-  if (std::abs(length - n * pitch) > 1e-6 * pitch)
+  if (!is_whole(length, pitch))
     throw std::invalid_argument(
         fmt::format("{} of {} is no whole number of particle diameters ({})", what, length, pitch));
   return static_cast<int>(n);
@@ -30,6 +30,11 @@ void check_on_grid(const std::vector<Box>& boxes, Vec3 low, double pitch) {
 }
 
 }  // namespace
+
+bool is_whole(double length, double pitch) {
+  const double ratio = length / pitch;
+  return std::abs(ratio - std::round(ratio)) <= 1e-6 * std::max(1.0, std::abs(ratio));
+}
 
 void pack(Lattice& lattice, const std::vector<Box>& boxes, const std::vector<Shape>& minus, double radius) {
   const double pitch = 2 * radius, slack = 1e-9 * radius;

@@ -8,6 +8,9 @@
 
 namespace geist {
 
+/// Is the length a whole number of pitches, to 1e-6 of the longer of the two?
+bool is_whole(double length, double pitch);
+
 /// Fill the union of `boxes` minus `minus` with particles: set the grid and the words of `lattice`. A cell
 /// belongs to the region if its centre does. Around the particles the grid has one layer of empty sites, for
 /// ghosts; trim() takes away what is not needed in the end. Throws std::invalid_argument if a box is no whole

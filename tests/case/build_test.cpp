@@ -101,6 +101,16 @@ TEST(Build, SharesNodesOfRegionsThatTouch) {
   EXPECT_EQ(build(input).simulation.model.mesh.nodes(), 27u + 9);
 }
 
+/// The message about a radius that does not fit suggests these, rounded; they must be as good as it says.
+TEST(Build, AcceptsTheRadiiThatMessagesSuggest) {
+  for (const auto& [radius, particles] :
+       {std::pair{"0.142857", 21u * 7 * 7}, std::pair{"0.1666667", 18u * 6 * 6}}) {
+    const Case input = read_case(GEIST_SOURCE_DIR "/examples/beam/case.toml",
+                                 {std::string("regions.middle.radius=") + radius});
+    EXPECT_EQ(build(input).simulation.model.lattices[0].count(site::particle), particles) << radius;
+  }
+}
+
 TEST(Build, RefusesWhatDoesNotFitIntoMemory) {
   const std::string huge =
       "[regions.a]\ntype = \"hexahedra\"\nmaterial = \"m\"\nbox = [[0, 0, 0], [1, 1, 1]]\n"
