@@ -151,7 +151,7 @@ Built build(const Case& input) {
   set_initial_motion(sim.model, input, selector);
   built.probes = make_probes(input, selector, sim);
   sim.reactions = coupling::Reactions(sim.model);
-  built.bounds = time_step_bounds(sim.model);
+  built.bounds = time_step_bounds(sim.model, sim.contacts);
   sim.dt = choose_time_step(input, built.bounds);
   sim.alpha = input.analysis.damping;
   return built;

@@ -20,12 +20,12 @@ struct Share {
   }
 };
 
-Share node_share(const Mesh& mesh, std::size_t i) {
+Share node_share(const Mesh& mesh, std::size_t i, bool present) {
   const Vec3 v = 0.5 * (mesh.v_before.vector(i) + mesh.v.vector(i)), p = mesh.mass[i] * v;
-  return {0.5 * dot(p, v), 0, p, cross(mesh.points[i], p)};
+  return {0.5 * dot(p, v), 0, p, cross(mesh.points[i] + (present ? mesh.u.vector(i) : Vec3{}), p)};
 }
 
-Share site_share(const Lattice& lattice, std::size_t s) {
+Share site_share(const Lattice& lattice, std::size_t s, bool present) {
   if (!(lattice.word[s] & (site::particle | site::ghost))) return {};
   const auto at = [&](int first) {
     return 0.5 * (lattice.velocity_before.vector(s, first) + lattice.velocity.vector(s, first));
@@ -34,7 +34,8 @@ Share site_share(const Lattice& lattice, std::size_t s) {
   Share share{0, 0.5 * dot(spin, omega), {}, spin};
   if (!lattice.is(s, site::particle)) return share;
   const Vec3 v = at(0), p = lattice.mass * v;
-  share += {0.5 * dot(p, v), 0, p, cross(lattice.grid.centre(s), p)};
+  const Vec3 x = lattice.grid.centre(s) + (present ? lattice.motion.vector(s) : Vec3{});
+  share += {0.5 * dot(p, v), 0, p, cross(x, p)};
   return share;
 }
 
@@ -81,11 +82,14 @@ double lattice_residual(const Lattice& lattice, Imbalance imbalance) {
 Ledger Simulation::ledger() {
   const auto timing = timers.time(Phase::observe);
   const Mesh& mesh = model.mesh;
-  Share all = sum<Share>(mesh.nodes(), [&mesh](std::size_t i) { return node_share(mesh, i); });
+  const bool present = !contacts.empty();
+  Share all =
+      sum<Share>(mesh.nodes(), [&mesh, present](std::size_t i) { return node_share(mesh, i, present); });
   const fe::Energies elements = fe::energies(mesh);
   de::BondEnergies bonds;
   for (const Lattice& lattice : model.lattices) {
-    all += sum<Share>(lattice.grid.size(), [&lattice](std::size_t s) { return site_share(lattice, s); });
+    all += sum<Share>(lattice.grid.size(),
+                      [&lattice, present](std::size_t s) { return site_share(lattice, s, present); });
     bonds += de::energies(lattice);
   }
   settle(loads, model, model.time);
@@ -93,6 +97,8 @@ Ledger Simulation::ledger() {
   l.kinetic_translation = all.kinetic, l.kinetic_rotation = all.rotational;
   l.strain_elements = elements.strain, l.hourglass = elements.hourglass;
   l.strain_bonds = bonds.bonds, l.strain_coupling = bonds.coupling;
+  const contact::Energies& touching = contacts.energies();
+  l.contact = touching.stored, l.friction = touching.friction, l.contact_damping = touching.damping;
   l.damping = damping_work_;
   l.external = supports.work;
   for (const Load& load : loads) l.external += load.work;

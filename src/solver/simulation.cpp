@@ -86,6 +86,10 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
     const auto timing = timers.time(Phase::coupling);
     for (Lattice& lattice : model.lattices) coupling::follow(lattice, model.mesh);  // (21)
   }
+  if (!contacts.empty()) {
+    const auto timing = timers.time(Phase::contact);
+    contacts.find(model, arrived ? dt : 0);
+  }
   double power = 0;
   {
     const auto timing = timers.time(Phase::elements);
@@ -99,9 +103,11 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   {
     const auto timing = timers.time(Phase::nodes);
     gather_internal_forces(model.mesh);
-    reactions.add(model);                    // (14)
-    add_loads(loads, model, model.time);     // f^res of (1)(2)
-    sums += kick_nodes(model.mesh, kick);    // (16)(25)
+    reactions.add(model);                 // (14)
+    add_loads(loads, model, model.time);  // f^res of (1)(2)
+    contacts.add_to_nodes(model.mesh);
+    sums += kick_nodes(model.mesh, kick);  // (16)(25)
+    sums += kick_touched(kick);
     for (Lattice& lattice : model.lattices)  // ghosts' spins; loaded and supported particles
       sums += weighted(de::kick_listed(lattice, for_lattice(kick, lattice)), lattice);
     supports.apply(model, dt, g, arrived);
@@ -114,6 +120,17 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   if (arrived)
     damping_work_ += dt * (0.5 * (damping_power_ + damping_power) + 0.25 * hourglass_power_ + 0.75 * power);
   damping_power_ = damping_power, hourglass_power_ = power;
+}
+
+de::KickSums Simulation::kick_touched(const de::Kick& kick) {
+  de::KickSums sums;
+  for (std::size_t l = 0; l < model.lattices.size(); ++l) {
+    const de::Kick own = for_lattice(kick, model.lattices[l]);
+    const auto change = contacts.kick_particles(static_cast<std::int32_t>(l), model.lattices[l], own.per_mass,
+                                                own.per_inertia);
+    sums.across += change.across, sums.after += change.after;
+  }
+  return sums;
 }
 
 void Simulation::account(const de::KickSums& sums, double kick_dt, bool arrived) {

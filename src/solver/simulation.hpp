@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/contacts.hpp"
 #include "coupling/ghosts.hpp"
 #include "de/bonds.hpp"
 #include "model/model.hpp"
@@ -22,6 +23,7 @@ class Simulation {
   std::vector<Load> loads;
   Supports supports;
   coupling::Reactions reactions;
+  contact::Contacts contacts;
   double dt = 0;     ///< time step
   double alpha = 0;  ///< damping: f = −α m v on everything that moves freely, 1/time
   Timers timers;
@@ -48,6 +50,7 @@ class Simulation {
 
  private:
   void forces_and_kick(double kick_dt, bool arrived);
+  de::KickSums kick_touched(const de::Kick& kick);
   void keep_velocities();
   void account(const de::KickSums& sums, double kick_dt, bool arrived);
 

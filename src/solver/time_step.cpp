@@ -14,14 +14,15 @@
 namespace geist {
 namespace {
 
-/// What the elements and the ghosts contribute to ω² at every node, times its mass.
+/// What the elements, the ghosts and contacts contribute to ω² at every node, times its mass.
 struct NodeBounds {
-  std::vector<double> elements, ghosts;
+  std::vector<double> elements, ghosts, contacts;
 };
 
-NodeBounds node_bounds(const Model& model) {
+NodeBounds node_bounds(const Model& model, const contact::Contacts& contacts) {
   const Mesh& mesh = model.mesh;
-  NodeBounds at{std::vector<double>(mesh.nodes(), 0.0), std::vector<double>(mesh.nodes(), 0.0)};
+  NodeBounds at{std::vector<double>(mesh.nodes(), 0.0), std::vector<double>(mesh.nodes(), 0.0),
+                contacts.node_charges(model)};
   const std::vector<double> omega2 = fe::frequencies_squared(mesh);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto m = fe::corner_masses(mesh, e);
@@ -57,24 +58,30 @@ TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBou
   std::int32_t node = 0;
   for (std::size_t e = region.first; e < region.first + region.count; ++e)
     for (const std::int32_t i : mesh.elements[e]) {
-      const double omega2 = combined(at.elements[i] / mesh.mass[i], at.ghosts[i] / mesh.mass[i], viscous);
+      if (mesh.held[i] == 0b111) continue;
+      const double omega2 =
+          combined(at.elements[i] / mesh.mass[i], (at.ghosts[i] + at.contacts[i]) / mesh.mass[i], viscous);
       if (omega2 > worst) worst = omega2, node = i;
     }
   const Vec3 p = mesh.points[node];
   return {region.name, 2 / std::sqrt(worst),
-          fmt::format("{} at ({:.4g}, {:.4g}, {:.4g})",
-                      at.ghosts[node] > 0 ? "hexahedra with ghosts" : "hexahedra", p.x, p.y, p.z)};
+          fmt::format("hexahedra{}{} at ({:.4g}, {:.4g}, {:.4g})", at.ghosts[node] > 0 ? " with ghosts" : "",
+                      at.contacts[node] > 0 ? " that may touch" : "", p.x, p.y, p.z)};
 }
 
 }  // namespace
 
-std::vector<TimeStepBound> time_step_bounds(const Model& model) {
+std::vector<TimeStepBound> time_step_bounds(const Model& model, const contact::Contacts& contacts) {
   std::vector<TimeStepBound> bounds;
-  const NodeBounds at = node_bounds(model);
+  const NodeBounds at = node_bounds(model, contacts);
   for (const HexRegion& region : model.mesh.regions) bounds.push_back(hex_bound(model.mesh, region, at));
-  for (const Lattice& lattice : model.lattices)
-    bounds.push_back({lattice.name, 2 / std::sqrt(de::largest_frequency_squared(lattice)),
-                      fmt::format("bonds of particles, r = {:.6g}", lattice.radius())});
+  for (std::size_t l = 0; l < model.lattices.size(); ++l) {
+    const Lattice& lattice = model.lattices[l];
+    const double charge = contacts.particle_charge(model, static_cast<std::int32_t>(l));
+    bounds.push_back({lattice.name, 2 / std::sqrt(de::largest_frequency_squared(lattice) + charge),
+                      fmt::format("bonds{} of particles, r = {:.6g}", charge > 0 ? " and contacts" : "",
+                                  lattice.radius())});
+  }
   return bounds;
 }
 

@@ -7,11 +7,14 @@
 //  lattice,
 //    since a bond that is missing only takes energy away;
 //  - ghosts follow nodes, |Σ N_I u_I|² ≤ Σ N_I |u_I|², so they charge node I with the mass Σ_g N_I m_d.
-// Hence ω_max² ≤ max( ω_L², max over I of (Σ_e ω_e² m_eI + ω_L² Σ_g N_I m_d) / m_I ).
+//  - contacts: a spring across the gap charges either side with 2 k (Contacts::node_charges), c_I and c_d.
+// Hence ω_max² ≤ max( ω_L² + c_d, max over I of (Σ_e ω_e² m_eI + ω_L² Σ_g N_I m_d + c_I) / m_I ), over the
+// nodes that are not held.
 #pragma once
 #include <string>
 #include <vector>
 
+#include "contact/contacts.hpp"
 #include "model/model.hpp"
 
 namespace geist {
@@ -25,7 +28,7 @@ struct TimeStepBound {
 };
 
 /// One bound for each region, mesh regions first.
-std::vector<TimeStepBound> time_step_bounds(const Model& model);
+std::vector<TimeStepBound> time_step_bounds(const Model& model, const contact::Contacts& contacts);
 
 /// The smallest of them.
 const TimeStepBound& critical(const std::vector<TimeStepBound>& bounds);

@@ -5,9 +5,9 @@
 
 namespace geist {
 
-enum class Phase { drift, coupling, elements, lattice, nodes, observe };
-inline constexpr std::array<const char*, 6> phase_names{"drift",   "coupling",        "elements",
-                                                        "lattice", "nodes and loads", "observation"};
+enum class Phase { drift, coupling, contact, elements, lattice, nodes, observe };
+inline constexpr std::array<const char*, 7> phase_names{
+    "drift", "coupling", "contact", "elements", "lattice", "nodes and loads", "observation"};
 
 class Timers {
  public:
@@ -28,7 +28,7 @@ class Timers {
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::array<double, 6> seconds_{};
+  std::array<double, phase_names.size()> seconds_{};
 };
 
 }  // namespace geist

@@ -1,0 +1,303 @@
+#include "contact/touch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/triangle.hpp"
+
+namespace geist::contact {
+namespace {
+
+constexpr int most_points = 12;
+
+/// The nearest point of one triangle.
+struct Nearest {
+  NearestPoint point;
+  double distance;
+  std::int32_t facet;
+  int k;   ///< triangle
+  Vec3 n;  ///< its unit normal
+  Vec3 away() const { return away_; }
+  Vec3 away_;  ///< from the point to the contactor
+};
+
+/// Nodes lie on a facet's plane beside it by round-off where bodies lie flush; this share of the facet's size
+/// is let pass.
+constexpr double beside = 0.02;
+
+/// Directions that are not descents to within rounding.
+constexpr double level = 1e-10;
+
+/// Whether the distance falls in direction t from where `away` was measured.
+bool falls(Vec3 away, Vec3 t) { return dot(away, t) > level * norm(away) * norm(t); }
+
+/// The part of b − a that is orthogonal to edge e.
+Vec3 across_edge(Vec3 a, Vec3 b, Vec3 e) { return (b - a) - (dot(b - a, e) / dot(e, e)) * e; }
+
+/// Examines the triangles of one body around one contactor.
+class Examiner {
+ public:
+  Examiner(const Surface& surface, const Field<3>& x, const Probing& probe)
+      : surface_(surface), x_(x), probe_(probe) {}
+
+  Touch examine(std::span<const std::int32_t> facets) {
+    for (const std::int32_t f : facets) visit(f);
+    if (count_ == 0) return {};
+    const Nearest& nearest =
+        *std::min_element(found_.begin(), found_.begin() + count_,
+                          [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
+    if (probe_.radius == 0) return node_touch(nearest);
+    return inside(nearest) ? deep_touch(nearest) : outside_touch();
+  }
+
+ private:
+  void visit(std::int32_t f) {
+    const SurfaceFacet& facet = surface_.facets[f];
+    for (const std::int32_t corner : facet.corner)
+      if (corner == probe_.node) return;
+    const FacetPoints at = points_of(facet, x_);
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 normal = triangle_normal(at, k);
+      const double twice_area = norm(normal);
+      const double height = dot(probe_.x - at.centre, normal);
+      const double out = std::max(probe_.radius, 0.0) * twice_area, in = probe_.reach * twice_area;
+      if (height >= out || height < -in) continue;
+      if (probe_.radius == 0 && dot(normal, probe_.outward) >= 0) continue;
+      keep(f, k, (1 / twice_area) * normal, at);
+    }
+  }
+
+  void keep(std::int32_t f, int k, Vec3 n, const FacetPoints& at) {
+    Nearest found{nearest_point(probe_.x, at.corner[k], at.corner[(k + 1) % 4], at.centre), 0, f, k, n, {}};
+    found.away_ = probe_.x - found.point.p;
+    found.distance = norm(found.away());
+    if (found.distance >= std::max(probe_.radius, probe_.reach)) return;
+    if (count_ < most_points) {
+      found_[count_++] = found;
+      return;
+    }
+    Nearest& farthest =
+        *std::max_element(found_.begin(), found_.end(),
+                          [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
+    if (found.distance < farthest.distance) farthest = found;
+  }
+
+  /// Whether no point of the surface beside this one is nearer, so that it is a contact of its own.
+  bool local_minimum(const Nearest& a) const {
+    const SurfaceFacet& facet = surface_.facets[a.facet];
+    const FacetPoints at = points_of(facet, x_);
+    const int k = a.k;
+    const auto corner = [&](int i) { return at.corner[(i + 4) % 4]; };
+    switch (a.point.feature) {
+      case Feature::face:
+        return true;
+      case Feature::edge_ab: {
+        if (facet.across[k] < 0) return true;
+        const Vec3 other = points_of(surface_.facets[facet.across[k]], x_).centre;
+        return !falls(a.away(), across_edge(corner(k), other, corner(k + 1) - corner(k)));
+      }
+      case Feature::edge_bc:
+        return !falls(a.away(), across_edge(at.centre, corner(k + 2), corner(k + 1) - at.centre));
+      case Feature::edge_ca:
+        return !falls(a.away(), across_edge(at.centre, corner(k - 1), corner(k) - at.centre));
+      case Feature::corner_c:
+        return std::none_of(at.corner.begin(), at.corner.end(),
+                            [&](Vec3 p) { return falls(a.away(), p - at.centre); });
+      case Feature::corner_a:
+        return minimum_at_node(a, facet.corner[k]);
+      case Feature::corner_b:
+        return minimum_at_node(a, facet.corner[(k + 1) % 4]);
+    }
+    return true;
+  }
+
+  bool minimum_at_node(const Nearest& a, std::int32_t node) const {
+    const Vec3 p = x_.vector(node);
+    for (std::int32_t s = surface_.around_begin[node]; s < surface_.around_begin[node + 1]; ++s) {
+      const FacetPoints at = points_of(surface_.facets[surface_.around[s] / 4], x_);
+      const int k = surface_.around[s] % 4;
+      for (const Vec3 q : {at.corner[(k + 1) % 4], at.corner[(k + 3) % 4], at.centre})
+        if (falls(a.away(), q - p)) return false;
+    }
+    return true;
+  }
+
+  /// The surface's normal at a nearest point, which tells inside from outside.
+  Vec3 normal_at(const Nearest& a) const {
+    const SurfaceFacet& facet = surface_.facets[a.facet];
+    const FacetPoints at = points_of(facet, x_);
+    const auto unit = [&](const FacetPoints& points, int k) {
+      const Vec3 n = triangle_normal(points, (k + 4) % 4);
+      return (1 / norm(n)) * n;
+    };
+    switch (a.point.feature) {
+      case Feature::face:
+        return a.n;
+      case Feature::edge_ab: {
+        if (facet.across[a.k] < 0) return a.n;
+        const SurfaceFacet& other = surface_.facets[facet.across[a.k]];
+        const auto from = std::find(other.corner.begin(), other.corner.end(), facet.corner[(a.k + 1) % 4]);
+        return a.n + unit(points_of(other, x_), static_cast<int>(from - other.corner.begin()));
+      }
+      case Feature::edge_bc:
+        return a.n + unit(at, a.k + 1);
+      case Feature::edge_ca:
+        return a.n + unit(at, a.k - 1);
+      case Feature::corner_c:
+        return unit(at, 0) + unit(at, 1) + unit(at, 2) + unit(at, 3);
+      case Feature::corner_a:
+        return node_normal(surface_, x_, facet.corner[a.k]);
+      case Feature::corner_b:
+        return node_normal(surface_, x_, facet.corner[(a.k + 1) % 4]);
+    }
+    return a.n;
+  }
+
+  bool inside(const Nearest& a) const { return dot(a.away(), normal_at(a)) < 0; }
+
+  TouchPoint make_point(const Nearest& a, Vec3 n, double overlap) const {
+    const auto& w = a.point.weight;
+    TouchPoint t{a.facet, {}, a.point.p, n, overlap, overlap};
+    t.weight.fill(0.25 * w[2]);
+    t.weight[a.k] += w[0], t.weight[(a.k + 1) % 4] += w[1];
+    return t;
+  }
+
+  static Touch single(const TouchPoint& point) { return {1, {point}, point.overlap, point.n}; }
+
+  /// A sphere whose centre has not passed the surface: every local minimum of the distance pushes.
+  Touch outside_touch() const {
+    std::array<TouchPoint, most_points> points;
+    std::size_t n = 0;
+    for (int i = 0; i < count_; ++i)
+      if (const Nearest& a = found_[i]; a.distance < probe_.radius && local_minimum(a)) {
+        const Vec3 normal = a.distance > 1e-12 * probe_.radius ? (1 / a.distance) * a.away() : a.n;
+        points[n++] = make_point(a, normal, probe_.radius - a.distance);
+      }
+    return shortest_way_out({points.data(), n});
+  }
+
+  /// A sphere whose centre has passed the surface: back to the nearest point of it.
+  Touch deep_touch(const Nearest& a) const {
+    const Vec3 normal = a.distance > 1e-12 * probe_.radius ? (-1 / a.distance) * a.away() : a.n;
+    return single(make_point(a, normal, probe_.radius + a.distance));
+  }
+
+  /// A node behind the surface that faces it.
+  Touch node_touch(const Nearest& a) const {
+    const double depth = -dot(a.away(), a.n);
+    if (depth <= 0) return {};
+    const Vec3 sideways = a.away() + depth * a.n;
+    const bool on_plane = norm(sideways) <= beside * std::sqrt(surface_.facets[a.facet].area);
+    if (a.point.feature == Feature::face || on_plane) return single(make_point(a, a.n, depth));
+    if (!local_minimum(a)) return {};
+    return single(make_point(a, (-1 / a.distance) * a.away(), a.distance));
+  }
+
+  const Surface& surface_;
+  const Field<3>& x_;
+  const Probing& probe_;
+  std::array<Nearest, most_points> found_;
+  int count_ = 0;
+};
+
+/// Displacement Σ λ_i n_i that just meets the half-spaces `active` (one to three of them), if all λ are
+/// positive.
+class WayOut {
+ public:
+  explicit WayOut(std::span<const TouchPoint> points) : points_(points) {}
+
+  bool solve(std::initializer_list<std::size_t> active) {
+    const std::size_t n = active.size();
+    index_.assign(active);
+    const auto& p = points_;
+    const auto c = [&](std::size_t a, std::size_t b) { return dot(p[index_[a]].n, p[index_[b]].n); };
+    const auto delta = [&](std::size_t a) { return p[index_[a]].overlap; };
+    if (n == 1) {
+      lambda_ = {delta(0), 0, 0};
+    } else {
+      const double s = n == 3 ? 1 : 0;  // a third equation that says λ_3 = 0
+      const Mat3 gram{{Vec3{1, c(0, 1), s ? c(0, 2) : 0}, Vec3{c(0, 1), 1, s ? c(1, 2) : 0},
+                       Vec3{s ? c(0, 2) : 0, s ? c(1, 2) : 0, 1}}};
+      if (det(gram) < 1e-9) return false;
+      const Vec3 solution = inverse(gram) * Vec3{delta(0), delta(1), s ? delta(2) : 0};
+      lambda_ = {solution.x, solution.y, solution.z};
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      if (!(lambda_[i] > 0)) return false;
+    return leads_out(n);
+  }
+
+  Touch result(std::size_t n) const {
+    Touch t;
+    Vec3 d;
+    for (std::size_t i = 0; i < n; ++i) {
+      t.point[t.count] = points_[index_[i]], t.point[t.count++].lambda = lambda_[i];
+      d += lambda_[i] * points_[index_[i]].n;
+    }
+    t.overlap = norm(d), t.normal = (1 / t.overlap) * d;
+    return t;
+  }
+
+ private:
+  struct Indices {
+    std::array<std::size_t, 3> i{};
+    void assign(std::initializer_list<std::size_t> list) { std::copy(list.begin(), list.end(), i.begin()); }
+    std::size_t operator[](std::size_t k) const { return i[k]; }
+  };
+
+  bool leads_out(std::size_t n) const {
+    Vec3 d;
+    for (std::size_t i = 0; i < n; ++i) d += lambda_[i] * points_[index_[i]].n;
+    return std::all_of(points_.begin(), points_.end(), [d](const TouchPoint& q) {
+      return dot(q.n, d) >= q.overlap - 1e-9 * std::max(q.overlap, norm(d));
+    });
+  }
+
+  std::span<const TouchPoint> points_;
+  Indices index_;
+  std::array<double, 3> lambda_{};
+};
+
+/// The deepest three push by themselves.
+Touch pinched(std::span<const TouchPoint> points) {
+  Touch t;
+  Vec3 d;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, points.size()); ++i)
+    t.point[t.count++] = points[i], d += points[i].overlap * points[i].n;
+  t.overlap = norm(d);
+  t.normal = t.overlap > 0 ? (1 / t.overlap) * d : points[0].n;
+  return t;
+}
+
+}  // namespace
+
+double Touch::lambda_sum() const {
+  double s = 0;
+  for (int i = 0; i < count; ++i) s += point[i].lambda;
+  return s;
+}
+
+Touch shortest_way_out(std::span<const TouchPoint> points) {
+  const std::size_t n = points.size();
+  if (n == 0) return {};
+  WayOut way(points);
+  for (std::size_t i = 0; i < n; ++i)
+    if (way.solve({i})) return way.result(1);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      if (way.solve({i, j})) return way.result(2);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      for (std::size_t k = j + 1; k < n; ++k)
+        if (way.solve({i, j, k})) return way.result(3);
+  return pinched(points);
+}
+
+Touch touch(const Surface& surface, const Field<3>& x, std::span<const std::int32_t> facets,
+            const Probing& probe) {
+  return Examiner(surface, x, probe).examine(facets);
+}
+
+}  // namespace geist::contact
