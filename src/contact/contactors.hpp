@@ -32,7 +32,7 @@ struct Contactor {
   std::int32_t place;
   std::int32_t region;  ///< hexahedra first, then lattices
   double radius;        ///< 0 for a node
-  double area;          ///< of a node: what it stands for of its region's surface
+  double area;          ///< of a node: a quarter of each facet of its region around it
   double depth;         ///< half of the thickness of the elements behind a node; a particle's radius
 };
 

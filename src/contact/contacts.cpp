@@ -116,7 +116,8 @@ void Contacts::meet_body(const Model& model, std::size_t number, double dt) {
   const Contactor& c = contactors_[pair.contactor];
   const Vec3 x = places_.x.vector(c.place);
   Probing probe{x, c.radius, reach(c), -1, {}};
-  if (c.radius == 0) probe.node = c.place, probe.outward = node_normal(surface_, places_.x, c.place);
+  if (c.radius == 0)
+    probe.node = c.place, probe.outward = area_vector(surface_, places_.x, c.place, c.region);
   Active& active = active_[number];
   active.touch = touch(surface_, places_.x,
                        {candidates_.facets.data() + pair.first, static_cast<std::size_t>(pair.count)}, probe);
@@ -161,7 +162,7 @@ void Contacts::meet_particle(const Model& model, std::size_t number, double dt) 
   const double inverse_mass = inverse_mass_along(places_.inverse_mass.vector(a.place), n) +
                               inverse_mass_along(places_.inverse_mass.vector(b.place), n);
   const PairLaw& law = pair_laws_[laws_.at(a.region, b.region)];
-  NormalStiffness k = spring(law, a, 1 / (4 * b.radius * layer_[b.region]));
+  NormalStiffness k = spring(law, a, 0, 1 / (4 * b.radius * layer_[b.region]));
   if (k.hertz) k.k *= std::sqrt(b.radius / (a.radius + b.radius));  // 1/R* = 1/R_a + 1/R_b
   active_[number].response = respond(law, {k, overlap, 1, n, velocity, inverse_mass}, dt, memory_[number]);
 }
@@ -171,7 +172,7 @@ void Contacts::meet_particle(const Model& model, std::size_t number, double dt) 
 /// of the stiffness comes from the other surface's nodes). Hertz: 4/3 E* √R on a flat.
 NormalStiffness Contacts::spring(const PairLaw& law, const Contactor& c, double other_compliance) const {
   const double factor = law.law.factor;
-  if (c.radius == 0) return {factor * 0.5 * c.area / (c.depth / layer_[c.region] + other_compliance), false};
+  if (c.radius == 0) return {factor * 0.5 * area / (c.depth / layer_[c.region] + other_compliance), false};
   if (law.law.normal == Law::Normal::hertz)
     return {factor * 4 / 3 * law.moduli.E * std::sqrt(c.radius), true};
   return {factor / (1 / (4 * c.radius * layer_[c.region]) + other_compliance), false};
@@ -308,12 +309,12 @@ double Contacts::particle_charge(const Model& model, std::int32_t l) const {
 double Contacts::largest_stiffness(const Contactor& c, std::int32_t other) const {
   const PairLaw& law = pair_laws_[laws_.at(c.region, other)];
   if (c.radius == 0 && least_[other].radius > 0)  // the particle is the contactor
-    return spring(law, least_[other], 1 / (4 * least_[other].radius * layer_[c.region]))
+    return spring(law, least_[other], 0, 1 / (4 * least_[other].radius * layer_[c.region]))
         .tangent(least_[other].radius);
   const double half = least_[other].radius > 0 ? 1 / (4 * least_[other].radius * layer_[other])
                       : c.radius > 0           ? 1 / (4 * c.radius * layer_[other])
                                                : least_[other].depth / layer_[other];
-  return spring(law, c, half).tangent(c.radius);
+  return spring(law, c, c.area, half).tangent(c.radius);
 }
 
 std::vector<DeepContact> Contacts::take_deep_contacts() { return std::exchange(deep_, {}); }

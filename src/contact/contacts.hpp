@@ -105,7 +105,7 @@ class Contacts {
   void meet_body(const Model& model, std::size_t pair, double dt);
   void meet_particle(const Model& model, std::size_t pair, double dt);
   double largest_stiffness(const Contactor& c, std::int32_t other) const;
-  NormalStiffness spring(const PairLaw& law, const Contactor& a, double other_compliance) const;
+  NormalStiffness spring(const PairLaw& law, const Contactor& c, double area, double other_compliance) const;
   void collect(const Model& model);
   void push(const Pair& pair, const Active& active);
   void push_body(const Pair& pair, const Active& active);

@@ -166,4 +166,16 @@ Vec3 node_normal(const Surface& surface, const Field<3>& x, std::int32_t node) {
   return normal;
 }
 
+Vec3 area_vector(const Surface& surface, const Field<3>& x, std::int32_t node, std::int32_t region) {
+  Vec3 total;
+  for (std::int32_t s = surface.around_begin[node]; s < surface.around_begin[node + 1]; ++s) {
+    const SurfaceFacet& facet = surface.facets[surface.around[s] / 4];
+    if (facet.region != region) continue;
+    const FacetPoints at = points_of(facet, x);
+    const Vec3 normal = cross(at.corner[2] - at.corner[0], at.corner[3] - at.corner[1]);
+    total += (0.25 * facet.area / norm(normal)) * normal;
+  }
+  return total;
+}
+
 }  // namespace geist::contact

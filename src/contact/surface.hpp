@@ -51,4 +51,8 @@ inline Vec3 triangle_normal(const FacetPoints& at, int k) {
 /// up there (Bærentzen and Aanæs 2005: it tells inside from outside). Not normalised.
 Vec3 node_normal(const Surface& surface, const Field<3>& x, std::int32_t node);
 
+/// What a node stands for of a region's surface, as a vector: a quarter of each facet around it, along its
+/// normal. Facets keep their reference area.
+Vec3 area_vector(const Surface& surface, const Field<3>& x, std::int32_t node, std::int32_t region);
+
 }  // namespace geist::contact
