@@ -142,9 +142,10 @@ void Contacts::meet_body(const Model& model, std::size_t number, double dt) {
   }
   const double compliance =
       c.radius > 0 ? 1 / (4 * c.radius * layer_[deepest.region]) : deepest.depth / layer_[deepest.region];
-  active.response = respond(
-      law, {spring(law, c, compliance), t.overlap, lambda / t.overlap, t.normal, velocity, inverse_mass}, dt,
-      memory_[number]);
+  active.response = respond(law,
+                            {spring(law, c, -dot(probe.outward, t.normal), compliance), t.overlap,
+                             lambda / t.overlap, t.normal, velocity, inverse_mass},
+                            dt, memory_[number]);
 }
 
 void Contacts::meet_particle(const Model& model, std::size_t number, double dt) {
@@ -168,9 +169,11 @@ void Contacts::meet_particle(const Model& model, std::size_t number, double dt) 
 }
 
 /// Two columns of material in series: for a particle the half of its cell, 4 r (λ + 2μ), and the same of the
-/// other side; for a node half an element's thickness on either side, over half of its area (the other half
-/// of the stiffness comes from the other surface's nodes). Hertz: 4/3 E* √R on a flat.
-NormalStiffness Contacts::spring(const PairLaw& law, const Contactor& c, double other_compliance) const {
+/// other side; for a node half an element's thickness on either side, over half of its area as seen from the
+/// other side (the other half of the stiffness comes from the other surface's nodes). Hertz: 4/3 E* √R on a
+/// flat.
+NormalStiffness Contacts::spring(const PairLaw& law, const Contactor& c, double area,
+                                 double other_compliance) const {
   const double factor = law.law.factor;
   if (c.radius == 0) return {factor * 0.5 * area / (c.depth / layer_[c.region] + other_compliance), false};
   if (law.law.normal == Law::Normal::hertz)
