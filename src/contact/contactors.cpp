@@ -7,19 +7,12 @@
 namespace geist::contact {
 namespace {
 
-bool touches_something(const LawTable& laws, std::int32_t region) {
-  for (std::size_t other = 0; other < laws.regions(); ++other)
-    if (laws.at(region, static_cast<std::int32_t>(other)) >= 0) return true;
-  return false;
-}
-
 /// A node once for each region whose facets it belongs to, with a quarter of each of these facets.
-void add_nodes(const Surface& surface, const LawTable& laws, std::vector<Contactor>& contactors) {
+void add_nodes(const Surface& surface, std::vector<Contactor>& contactors) {
   for (std::size_t i = 0; i < surface.nodes.size(); ++i) {
     const std::size_t first = contactors.size();
     for (std::int32_t s = surface.around_begin[i]; s < surface.around_begin[i + 1]; ++s) {
       const SurfaceFacet& facet = surface.facets[surface.around[s] / 4];
-      if (!touches_something(laws, facet.region)) continue;
       const double area = facet.area / 4;
       auto it = std::find_if(contactors.begin() + static_cast<std::ptrdiff_t>(first), contactors.end(),
                              [&](const Contactor& c) { return c.region == facet.region; });
@@ -73,11 +66,12 @@ std::vector<Contactor> make_contactors(const Model& model, const Surface& surfac
                                        Places& places) {
   std::vector<Contactor> contactors;
   for (const std::int32_t node : surface.nodes) places.list.push_back({-1, static_cast<std::size_t>(node)});
-  add_nodes(surface, laws, contactors);
+  add_nodes(surface, contactors);
+  const std::vector<std::uint8_t> touching = laws.touching();
   for (std::size_t l = 0; l < model.lattices.size(); ++l) {
     const Lattice& lattice = model.lattices[l];
     const auto region = static_cast<std::int32_t>(model.mesh.regions.size() + l);
-    if (!touches_something(laws, region)) continue;
+    if (!touching[region]) continue;
     for (std::size_t s = 0; s < lattice.grid.size(); ++s) {
       if (!lacks_bonds(lattice, s)) continue;
       const double r = lattice.radius();

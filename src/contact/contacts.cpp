@@ -62,7 +62,7 @@ Contacts::Contacts(const Model& model, LawTable laws) : laws_(std::move(laws)) {
     const auto [a, b] = laws_.regions_of(number);
     pair_laws_.emplace_back(laws_.law(number), material_of(model, a), material_of(model, b));
   }
-  surface_ = make_surface(model);
+  surface_ = make_surface(model, laws_.touching());
   contactors_ = make_contactors(model, surface_, laws_, places_);
   least_.resize(laws_.regions(), {-1, -1, 0, 0, 0});
   for (const Contactor& c : contactors_) {

@@ -28,6 +28,12 @@ void LawTable::set(std::int32_t a, std::int32_t b, const Law& law) {
   laws_.push_back(law), pairs_.push_back({a, b});
 }
 
+std::vector<std::uint8_t> LawTable::touching() const {
+  std::vector<std::uint8_t> touching(regions_, 0);
+  for (const auto [a, b] : pairs_) touching[a] = touching[b] = 1;
+  return touching;
+}
+
 PairModuli::PairModuli(const Material& a, const Material& b) {
   const auto normal = [](const Material& m) { return (1 - m.poisson * m.poisson) / m.young; };
   const auto shear = [](const Material& m) { return (2 - m.poisson) / m.mu(); };

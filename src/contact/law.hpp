@@ -34,6 +34,8 @@ class LawTable {
   std::array<std::int32_t, 2> regions_of(std::int32_t number) const { return pairs_[number]; }
   std::int32_t count() const { return static_cast<std::int32_t>(laws_.size()); }
   std::size_t regions() const { return regions_; }
+  /// By region: whether it may touch anything.
+  std::vector<std::uint8_t> touching() const;
   bool empty() const { return laws_.empty(); }
 
  private:

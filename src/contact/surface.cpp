@@ -126,12 +126,13 @@ double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(
 
 }  // namespace
 
-Surface make_surface(const Model& model) {
+Surface make_surface(const Model& model, const std::vector<std::uint8_t>& wanted) {
   const Mesh& mesh = model.mesh;
   Surface surface;
   const InterfaceFinder at_interface(model);
   const std::vector<std::int32_t> body = bodies_of(mesh), region = regions_of(mesh);
   for (const Facet& exterior : exterior_facets(mesh)) {
+    if (!wanted.empty() && !wanted[region[exterior.element]]) continue;
     std::array<Vec3, 4> corner;
     for (int k = 0; k < 4; ++k) corner[k] = mesh.points[exterior.node[k]];
     if (at_interface(corner)) continue;

@@ -31,9 +31,9 @@ struct Surface {
   std::vector<std::int32_t> around_begin, around;
 };
 
-/// The exterior facets of all hexahedra, but for those at an interface: a particle that is bonded to ghosts
-/// touches them at rest.
-Surface make_surface(const Model& model);
+/// The exterior facets of the wanted regions of hexahedra (all, if none is named), but for those at an
+/// interface: a particle of a coupled lattice touches them at rest.
+Surface make_surface(const Model& model, const std::vector<std::uint8_t>& wanted = {});
 
 /// The corners of a facet and its centre at the positions x of the surface's nodes.
 struct FacetPoints {
