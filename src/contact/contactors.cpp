@@ -1,6 +1,8 @@
 #include "contact/contactors.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 
 #include "core/parallel.hpp"
 
@@ -41,47 +43,147 @@ Vec3 inverse_mass(const Model& model, Place place) {
   return free_inverse(lattice.mass, listed ? lattice.listed_held[listed_slot(lattice, place.index)] : 0);
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Box nowhere() { return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}; }
+
+/// A box that grows.
+struct Extent {
+  Box box = nowhere();
+  Extent& operator+=(const Extent& b) {
+    for (int c = 0; c < 3; ++c)
+      box.low[c] = std::min(box.low[c], b.box.low[c]), box.high[c] = std::max(box.high[c], b.box.high[c]);
+    return *this;
+  }
+};
+
+std::array<const double*, 3> displacements(const Model& model, const PlaceRange& range) {
+  if (range.lattice < 0) return {model.mesh.u[0], model.mesh.u[1], model.mesh.u[2]};
+  const Field<6>& motion = model.lattices[range.lattice].motion;
+  return {motion[0], motion[1], motion[2]};
+}
+
+/// Moves eight places of a range at a time and measures how far they went; lanes beyond the end repeat the
+/// last place.
+struct Follower {
+  std::array<double*, 3> x;
+  std::array<const double*, 3> X, searched, u;
+  const std::int32_t* index;
+  std::size_t begin, end;
+
+  Follower(Places& places, const PlaceRange& range, std::array<const double*, 3> displacement)
+      : x{places.x[0], places.x[1], places.x[2]},
+        X{places.X[0], places.X[1], places.X[2]},
+        searched{places.x_searched[0], places.x_searched[1], places.x_searched[2]},
+        u(displacement),
+        index(places.index.data()),
+        begin(range.begin),
+        end(range.end) {}
+
+  std::size_t packs() const { return (end - begin + lanes - 1) / lanes; }
+
+  Extent operator()(std::size_t pack) const {
+    Extent extent;
+    const std::size_t first = begin + pack * lanes, last = std::min(end, first + lanes);
+    for (int c = 0; c < 3; ++c) {
+      double low = infinity, high = -infinity;
+      for (std::size_t i = first; i < last; ++i) {
+        const double now = X[c][i] + u[c][index[i]], moved = now - searched[c][i];
+        x[c][i] = now;
+        low = moved < low ? moved : low, high = moved > high ? moved : high;
+      }
+      extent.box.low[c] = low, extent.box.high[c] = high;
+    }
+    return extent;
+  }
+};
+
+/// Regions of hexahedra that share nodes, as one number each: of the first of them.
+std::vector<std::int32_t> clusters(const Model& model) {
+  const Mesh& mesh = model.mesh;
+  std::vector<std::int32_t> cluster(mesh.regions.size() + model.lattices.size()), owner(mesh.nodes(), -1);
+  std::iota(cluster.begin(), cluster.end(), 0);
+  const auto join = [&cluster](std::int32_t a, std::int32_t b) {
+    const std::int32_t low = std::min(cluster[a], cluster[b]), high = std::max(cluster[a], cluster[b]);
+    if (low != high) std::replace(cluster.begin(), cluster.end(), high, low);
+  };
+  for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+    const HexRegion& region = mesh.regions[r];
+    for (std::size_t e = region.first; e < region.first + region.count; ++e)
+      for (const std::int32_t node : mesh.elements[e]) {
+        if (owner[node] < 0) owner[node] = static_cast<std::int32_t>(r);
+        join(owner[node], static_cast<std::int32_t>(r));
+      }
+  }
+  return cluster;
+}
+
+/// Ranges of the surface's nodes, cluster by cluster.
+void add_node_ranges(const Surface& surface, Places& places) {
+  std::vector<std::int32_t> cluster_of(surface.nodes.size());
+  for (const SurfaceFacet& facet : surface.facets)
+    for (const std::int32_t corner : facet.corner) cluster_of[corner] = places.cluster[facet.region];
+  for (std::size_t i = 0; i < surface.nodes.size(); ++i) {
+    if (places.ranges.empty() || places.ranges.back().cluster != cluster_of[i])
+      places.ranges.push_back({-1, cluster_of[i], i, i});
+    ++places.ranges.back().end;
+    places.list.push_back({-1, static_cast<std::size_t>(surface.nodes[i])});
+  }
+}
+
+Vec3 reference_position(const Model& model, Place place) {
+  return place.lattice < 0 ? model.mesh.points[place.index]
+                           : model.lattices[place.lattice].grid.centre(place.index);
+}
+
+/// The arrays of places whose list is complete.
+void finish(Places& places, const Model& model) {
+  const std::size_t n = places.list.size();
+  places.X = Field<3>(n), places.x = Field<3>(n), places.x_searched = Field<3>(n);
+  places.inverse_mass = Field<3>(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    places.index.push_back(static_cast<std::int32_t>(places.list[i].index));
+    places.X.set(i, reference_position(model, places.list[i]));
+    places.inverse_mass.set(i, inverse_mass(model, places.list[i]));
+  }
+  places.moved.assign(places.cluster.size(), nowhere());
+}
+
 }  // namespace
 
-double Places::follow(const Model& model) {
-  struct Largest {
-    double square = 0;
-    Largest& operator+=(const Largest& b) { return square = std::max(square, b.square), *this; }
-  };
-  const Mesh& mesh = model.mesh;
-  return sum<Largest>(list.size(),
-                      [this, &model, &mesh](std::size_t i) {
-                        const auto [lattice, index] = list[i];
-                        const Vec3 now = lattice < 0 ? mesh.X.vector(index) + mesh.u.vector(index)
-                                                     : model.lattices[lattice].grid.centre(index) +
-                                                           model.lattices[lattice].motion.vector(index);
-                        x.set(i, now);
-                        const Vec3 moved = now - x_searched.vector(i);
-                        return Largest{dot(moved, moved)};
-                      })
-      .square;
+void Places::follow(const Model& model) {
+  std::fill(moved.begin(), moved.end(), nowhere());
+  for (const PlaceRange& range : ranges) {
+    const Follower follow{*this, range, displacements(model, range)};
+    Box& box = moved[range.cluster];
+    const Extent extent = sum<Extent>(follow.packs(), follow);
+    for (int c = 0; c < 3; ++c)
+      box.low[c] = std::min(box.low[c], extent.box.low[c]),
+      box.high[c] = std::max(box.high[c], extent.box.high[c]);
+  }
 }
 
 std::vector<Contactor> make_contactors(const Model& model, const Surface& surface, const LawTable& laws,
                                        Places& places) {
   std::vector<Contactor> contactors;
-  for (const std::int32_t node : surface.nodes) places.list.push_back({-1, static_cast<std::size_t>(node)});
+  places.cluster = clusters(model);
+  add_node_ranges(surface, places);
   add_nodes(surface, contactors);
   const std::vector<std::uint8_t> touching = laws.touching();
   for (std::size_t l = 0; l < model.lattices.size(); ++l) {
     const Lattice& lattice = model.lattices[l];
     const auto region = static_cast<std::int32_t>(model.mesh.regions.size() + l);
     if (!touching[region]) continue;
+    const std::size_t first = places.list.size();
     for (std::size_t s = 0; s < lattice.grid.size(); ++s) {
       if (!lacks_bonds(lattice, s)) continue;
       const double r = lattice.radius();
       contactors.push_back({static_cast<std::int32_t>(places.list.size()), region, r, 0, r});
       places.list.push_back({static_cast<std::int32_t>(l), s});
     }
+    places.ranges.push_back({static_cast<std::int32_t>(l), region, first, places.list.size()});
   }
-  const std::size_t n = places.list.size();
-  places.x = Field<3>(n), places.x_searched = Field<3>(n), places.inverse_mass = Field<3>(n);
-  for (std::size_t i = 0; i < n; ++i) places.inverse_mass.set(i, inverse_mass(model, places.list[i]));
+  finish(places, model);
   return contactors;
 }
 

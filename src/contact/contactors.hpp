@@ -9,6 +9,7 @@
 
 #include "contact/law.hpp"
 #include "contact/surface.hpp"
+#include "geometry/shapes.hpp"
 
 namespace geist::contact {
 
@@ -18,14 +19,27 @@ struct Place {
   std::size_t index;
 };
 
+/// Places that lie side by side and move with one field: u = field[index].
+struct PlaceRange {
+  std::int32_t lattice;  ///< < 0: nodes
+  std::int32_t cluster;
+  std::size_t begin, end;
+};
+
+/// Clusters are what moves more or less together: regions of hexahedra that share nodes, and lattices.
 struct Places {
   std::vector<Place> list;
-  Field<3> x;             ///< present positions
-  Field<3> inverse_mass;  ///< by component: 0 where a support holds it
-  Field<3> x_searched;    ///< positions at the last search
+  std::vector<std::int32_t> cluster;  ///< by region
+  std::vector<PlaceRange> ranges;
+  std::vector<std::int32_t> index;  ///< by place: node or site
+  Field<3> X;                       ///< reference positions
+  Field<3> x;                       ///< present positions
+  Field<3> x_searched;              ///< positions at the last search
+  Field<3> inverse_mass;            ///< by component: 0 where a support holds it
+  std::vector<Box> moved;           ///< by cluster: lowest and highest displacement since the last search
 
-  /// Bring x up to date. Returns the largest squared distance from x_searched.
-  double follow(const Model& model);
+  /// Bring x and moved up to date.
+  void follow(const Model& model);
 };
 
 struct Contactor {

@@ -77,7 +77,8 @@ Contacts::Contacts(const Model& model, LawTable laws) : laws_(std::move(laws)) {
 }
 
 void Contacts::find(const Model& model, double dt) {
-  if (places_.follow(model) > candidates_.room * candidates_.room) search_again(model);
+  places_.follow(model);
+  if (outdated(candidates_, places_)) search_again(model);
   constexpr std::size_t worth_threads = 200;
   for_each(
       candidates_.pairs.size(), [this, &model, dt](std::size_t pair) { meet(model, pair, dt); },

@@ -102,7 +102,7 @@ class Searcher {
 
   Candidates run() {
     Candidates found;
-    found.room = 0.5 * std::max(skin_, nearest_gap_);
+    found.clearances = clearances_;
     if (std::none_of(near_.begin(), near_.end(), [](char n) { return n; })) return found;
     const BoxGrid facets = facet_grid(), particles = particle_grid();
     constexpr std::size_t block = 512;
@@ -131,11 +131,11 @@ class Searcher {
   void find_near_regions() {
     const auto n = static_cast<std::int32_t>(laws_.regions());
     for (std::int32_t a = 0; a < n; ++a)
-      for (std::int32_t b = 0; b < n; ++b) {
+      for (std::int32_t b = a; b < n; ++b) {
         if (laws_.at(a, b) < 0) continue;
         const double apart = a == b ? 0 : gap(boxes_[a], boxes_[b]);
-        near_[a * laws_.regions() + b] = apart < skin_;
-        nearest_gap_ = std::min(nearest_gap_, apart);
+        near_[a * n + b] = near_[b * n + a] = apart < skin_;
+        clearances_.push_back({places_.cluster[a], places_.cluster[b], std::max(skin_, apart)});
       }
   }
 
@@ -206,7 +206,15 @@ class Searcher {
       if (corner == c.place) return false;
       widen(box, places_.x.vector(corner), reach(c) + skin_);
     }
-    return contains(box, p);
+    return contains(box, p) && (c.radius > 0 || may_face(c, facet));
+  }
+
+  bool may_face(const Contactor& c, const SurfaceFacet& facet) const {
+    constexpr double own_way = 0.5;
+    const Vec3 outward = area_vector(surface_, places_.x, c.place, c.region);
+    const FacetPoints at = points_of(facet, places_.x);
+    const Vec3 normal = cross(at.corner[2] - at.corner[0], at.corner[3] - at.corner[1]);
+    return dot(normal, outward) <= own_way * norm(normal) * norm(outward);
   }
 
   bool may_touch(const Contactor& a, const Contactor& b) const {
@@ -242,13 +250,27 @@ class Searcher {
   std::vector<Box> boxes_;  ///< by region
   std::vector<char> near_;  ///< by pair of regions
   double largest_reach_ = 0, largest_radius_ = 0;
-  double nearest_gap_ = infinity;
+  std::vector<Clearance> clearances_;
 };
 
 }  // namespace
 
 double reach(const Contactor& contactor) {
-  return contactor.radius > 0 ? contactor.radius : 2 * contactor.depth;
+  return contactor.radius > 0 ? contactor.radius : 1.5 * contactor.depth;
+}
+
+bool outdated(const Candidates& candidates, const Places& places) {
+  const auto moved_apart = [&places](const Clearance& c) {
+    const Box &a = places.moved[c.a], &b = places.moved[c.b];
+    if (a.low.x > a.high.x || b.low.x > b.high.x) return false;  // no contactor at all
+    double squares = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double most = std::max(a.high[i] - b.low[i], b.high[i] - a.low[i]);
+      squares += most * most;
+    }
+    return squares > c.distance * c.distance;
+  };
+  return std::any_of(candidates.clearances.begin(), candidates.clearances.end(), moved_apart);
 }
 
 Candidates search(const Model& model, const Surface& surface, const std::vector<Contactor>& contactors,

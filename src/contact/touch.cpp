@@ -63,7 +63,8 @@ class Examiner {
       const double height = dot(probe_.x - at.centre, normal);
       const double out = std::max(probe_.radius, 0.0) * twice_area, in = probe_.reach * twice_area;
       if (height >= out || height < -in) continue;
-      if (probe_.radius == 0 && dot(normal, probe_.outward) >= 0) continue;
+      if (probe_.radius == 0 && dot(normal, probe_.outward) >= facing * twice_area * norm(probe_.outward))
+        continue;
       keep(f, k, (1 / twice_area) * normal, at);
     }
   }

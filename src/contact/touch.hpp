@@ -39,8 +39,13 @@ struct Probing {
   double radius;      ///< 0 for a node
   double reach;       ///< depth behind the surface at which it is still taken to have come in from this side
   std::int32_t node;  ///< its own place in Surface::nodes, or −1: facets around it are left out
-  Vec3 outward;       ///< a node's own surface normal: it touches only what faces it
+  Vec3 outward;       ///< a node's own surface normal, of any length: it touches only what faces it
 };
+
+/// A triangle faces a node if the cosine between their outward normals is less than this. So the corner of a
+/// cube touches a plane (−0.58), and a node beside an edge does not touch the flank around that edge (0, and
+/// noise).
+inline constexpr double facing = -0.2;
 
 /// Touch of a contactor and the given facets of one body; x: positions of the surface's nodes.
 Touch touch(const Surface& surface, const Field<3>& x, std::span<const std::int32_t> facets,
