@@ -39,6 +39,12 @@ int growths(int i, int n, Towards towards) {
 
 }  // namespace
 
+Towards towards_of(std::string_view word) {
+  if (word == "low") return Towards::low;
+  if (word == "high") return Towards::high;
+  return word == "middle" ? Towards::middle : Towards::ends;
+}
+
 std::vector<double> stations(int n, const Grading& grading) {
   std::vector<double> t(static_cast<std::size_t>(n) + 1);
   if (grading.ratio == 1 || n < least_divisions(grading.towards)) {

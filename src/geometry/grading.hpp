@@ -1,11 +1,15 @@
 // Graded divisions: elements along a direction whose lengths grow geometrically from where they are smallest.
 #pragma once
+#include <string_view>
 #include <vector>
 
 namespace geist {
 
 /// Where the smallest elements are.
 enum class Towards { low, high, middle, ends };
+
+/// From "low", "high", "middle" or "ends".
+Towards towards_of(std::string_view word);
 
 /// How elements along a direction are graded; with ratio 1 they are all of one length.
 struct Grading {
