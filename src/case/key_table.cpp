@@ -148,10 +148,7 @@ Table grading() {
       "Directions of a region of hexahedra along which their lengths grow geometrically: x, y and z are the "
       "block's own three directions. Of a ball they are those of its core, and radius is that of its shells, "
       "low at the core and high at the surface. Of a cylinder z is along the axis; x and y, across it, are "
-      "the coordinate axes that follow the axis's own in the order x, y, z, x, y. A half, quarter or eighth "
-      "of a ball can be cut out with minus only where the plane through the centre is one of elements' "
-      "faces: an even core, and a grading across the plane that is the same on both sides of it, towards "
-      "middle or ends.",
+      "the coordinate axes that follow the axis's own in the order x, y, z, x, y.",
       {within(Type::table, "x", "graded", "Along x."), within(Type::table, "y", "graded", "Along y."),
        within(Type::table, "z", "graded", "Along z."),
        within(Type::table, "radius", "graded", "Through the shells of a ball or cylinder.")},
