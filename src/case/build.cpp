@@ -57,7 +57,7 @@ void at_region(const Case& input, const RegionSpec& spec, F make) {
 
 /// Elements, or sites of the box around a lattice.
 double places(const RegionSpec& spec) {
-  if (const auto* hexahedra = std::get_if<HexahedraSpec>(&spec.shape)) return count(hexahedra->body);
+  if (const auto* hexahedra = std::get_if<HexahedraSpec>(&spec.shape)) return element_count(hexahedra->body);
   const auto& lattice = std::get<LatticeSpec>(spec.shape);
   const Box box = bounds(lattice.boxes);
   const Vec3 edge = box.high - box.low, n = edge * (1 / (2 * lattice.radius));

@@ -31,8 +31,9 @@ const Meaning& meaning_for(const View& region) {
 
 double number_of_elements(const Meaning& meaning, const std::vector<long>& divisions) {
   const auto n = [&](std::size_t i) { return static_cast<int>(divisions[i]); };
-  if (!meaning.round()) return count(BlockBody{{}, {n(0), n(1), n(2)}});
-  return meaning.size == 2 ? count(BallBody{{}, n(0), n(1)}) : count(CylinderBody{{}, n(0), n(1), n(2)});
+  if (!meaning.round()) return element_count(BlockBody{{}, {n(0), n(1), n(2)}});
+  return meaning.size == 2 ? element_count(BallBody{{}, n(0), n(1)})
+                           : element_count(CylinderBody{{}, n(0), n(1), n(2)});
 }
 
 /// Whether `divisions` suits the body.

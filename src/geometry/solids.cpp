@@ -206,9 +206,9 @@ Hexahedra mesh_of(const CylinderBody& body, const Gradings& gradings) {
   return made;
 }
 
-double count(const BlockBody& b) { return 1.0 * b.divisions[0] * b.divisions[1] * b.divisions[2]; }
-double count(const BallBody& b) { return 1.0 * b.core * b.core * (b.core + 6.0 * b.shells); }
-double count(const CylinderBody& b) { return 1.0 * b.core * (b.core + 4.0 * b.shells) * b.layers; }
+double element_count(const BlockBody& b) { return 1.0 * b.divisions[0] * b.divisions[1] * b.divisions[2]; }
+double element_count(const BallBody& b) { return 1.0 * b.core * b.core * (b.core + 6.0 * b.shells); }
+double element_count(const CylinderBody& b) { return 1.0 * b.core * (b.core + 4.0 * b.shells) * b.layers; }
 
 }  // namespace
 
@@ -219,8 +219,8 @@ std::array<Vec3, 8> corners_of(const Box& box) {
   return corners;
 }
 
-double count(const Body& body) {
-  return std::visit([](const auto& b) { return count(b); }, body);
+double element_count(const Body& body) {
+  return std::visit([](const auto& b) { return element_count(b); }, body);
 }
 
 Hexahedra mesh_of(const Body& body, const Gradings& gradings) {

@@ -49,7 +49,7 @@ struct Hexahedra {
 std::array<Vec3, 8> corners_of(const Box& box);
 
 /// Number of its elements.
-double count(const Body& body);
+double element_count(const Body& body);
 
 /// Its elements. A ball, and what is symmetric about the planes through its centre, is so to the last bit
 /// where the centre is the origin; its surface nodes are at the radius, and those planes are faces of

@@ -89,7 +89,7 @@ TEST(Ball, HasACoreAndShells) {
   for (const auto& [n, m] : finenesses) {
     const Mesh mesh = mesh_with(BallBody{unit, n, m});
     EXPECT_EQ(mesh.elements.size(), std::size_t(n * n * n + 6 * n * n * m));
-    EXPECT_EQ(mesh.elements.size(), count(BallBody{unit, n, m}));
+    EXPECT_EQ(mesh.elements.size(), element_count(BallBody{unit, n, m}));
     EXPECT_EQ(mesh.nodes(), std::size_t((n + 1) * (n + 1) * (n + 1) + m * (6 * n * n + 2)));
   }
 }
@@ -170,7 +170,7 @@ TEST(Ball, CanBeCutAtItsPlanesOfSymmetry) {
   const double whole = volume_of(mesh_with(body, gradings));
   for (std::size_t cuts = 1; cuts <= 3; ++cuts) {
     const Mesh mesh = mesh_with(body, gradings, {minus.begin(), minus.begin() + static_cast<long>(cuts)});
-    EXPECT_EQ(mesh.elements.size(), std::size_t(count(body)) >> cuts);
+    EXPECT_EQ(mesh.elements.size(), std::size_t(element_count(body)) >> cuts);
     EXPECT_NEAR(volume_of(mesh) / whole, std::pow(0.5, cuts), 1e-9);
   }
 }
@@ -213,7 +213,7 @@ TEST(Cylinder, HasACoreShellsAndLayers) {
   const CylinderBody body{{{0, 0, 0}, {0, 0, 3}, 1}, 4, 3, 5};
   const Mesh mesh = mesh_with(body);
   EXPECT_EQ(mesh.elements.size(), 5u * (16 + 4 * 4 * 3));
-  EXPECT_EQ(mesh.elements.size(), count(body));
+  EXPECT_EQ(mesh.elements.size(), element_count(body));
   EXPECT_EQ(mesh.nodes(), 6u * (25 + 16 * 3));
   EXPECT_EQ(exterior_facets(mesh).size(), 2u * (16 + 48) + 16 * 5);
   expect_conforming(mesh);
