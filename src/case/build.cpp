@@ -27,7 +27,7 @@ void add_region(Mesh& mesh, const Case& input, const RegionSpec& spec, const Hex
         "to rest; use hourglass = \"stiffness\"");
   region.formulation = viscous ? "one-point-viscous" : hexahedra.formulation;
   region.hourglass_coefficient = hexahedra.hourglass_coefficient;
-  append_block(mesh, region, hexahedra.corners, hexahedra.divisions, hexahedra.minus);
+  append(mesh, region, mesh_of(hexahedra.body, hexahedra.gradings), hexahedra.minus);
 }
 
 /// A lattice with its particles, on a grid that has room for ghosts.
@@ -57,8 +57,7 @@ void at_region(const Case& input, const RegionSpec& spec, F make) {
 
 /// Elements, or sites of the box around a lattice.
 double places(const RegionSpec& spec) {
-  if (const auto* hexahedra = std::get_if<HexahedraSpec>(&spec.shape))
-    return 1.0 * hexahedra->divisions[0] * hexahedra->divisions[1] * hexahedra->divisions[2];
+  if (const auto* hexahedra = std::get_if<HexahedraSpec>(&spec.shape)) return element_count(hexahedra->body);
   const auto& lattice = std::get<LatticeSpec>(spec.shape);
   const Box box = bounds(lattice.boxes);
   const Vec3 edge = box.high - box.low, n = edge * (1 / (2 * lattice.radius));

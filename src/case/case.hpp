@@ -9,6 +9,7 @@
 
 #include "core/vec.hpp"
 #include "geometry/shapes.hpp"
+#include "geometry/solids.hpp"
 #include "model/material.hpp"
 #include "solver/curve.hpp"
 
@@ -25,10 +26,10 @@ struct Units {
   std::string length, mass, time;
 };
 
-/// A block of hexahedra, or what is left of it when `minus` is cut out.
+/// A block, ball or cylinder of hexahedra, or what is left of it when `minus` is cut out.
 struct HexahedraSpec {
-  std::array<Vec3, 8> corners;  ///< in VTK's order; `box` in the file is the special case
-  std::array<int, 3> divisions;
+  Body body;  ///< a block is given by its corners in VTK's order; `box` in the file is the special case
+  Gradings gradings;
   std::vector<Box> minus;
   std::string formulation;  ///< "full", "selective-reduced", "one-point"
   std::string hourglass;    ///< "stiffness", "viscous"; for "one-point"

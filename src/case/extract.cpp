@@ -23,18 +23,39 @@ Where where_of(const View& view) {
   return where;
 }
 
+Ball ball_of(const View& view) {
+  return {view.get<Vec3>("centre").value(), view.get<double>("radius").value()};
+}
+
+Cylinder cylinder_of(const View& view) {
+  return {view.get<Vec3>("from").value(), view.get<Vec3>("to").value(), view.get<double>("radius").value()};
+}
+
+Body body_of(const View& view) {
+  const auto divisions = view.get<std::vector<long>>("divisions").value();
+  const auto n = [&](std::size_t i) { return static_cast<int>(divisions.at(i)); };
+  if (const auto ball = view.table("ball")) return BallBody{ball_of(*ball), n(0), n(1)};
+  if (const auto cylinder = view.table("cylinder"))
+    return CylinderBody{cylinder_of(*cylinder), n(0), n(1), n(2)};
+  const auto corners = view.get<std::array<Vec3, 8>>("corners");
+  return BlockBody{corners ? *corners : corners_of(box_of(view)), {n(0), n(1), n(2)}};
+}
+
+Gradings gradings_of(const View& view) {
+  Gradings gradings;
+  const auto read = [&](const char* key, Grading& grading) {
+    if (const auto graded = view.table(key))
+      grading = {towards_of(word(*graded, "towards")), graded->get<double>("ratio").value()};
+  };
+  read("x", gradings.axis[0]), read("y", gradings.axis[1]), read("z", gradings.axis[2]);
+  read("radius", gradings.radius);
+  return gradings;
+}
+
 HexahedraSpec hexahedra_of(const View& view) {
   HexahedraSpec spec{};
-  if (const auto corners = view.get<std::array<Vec3, 8>>("corners")) {
-    spec.corners = *corners;
-  } else {
-    const auto [l, h] = box_of(view);
-    spec.corners = {Vec3{l.x, l.y, l.z}, {h.x, l.y, l.z}, {h.x, h.y, l.z}, {l.x, h.y, l.z},
-                    {l.x, l.y, h.z},     {h.x, l.y, h.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z}};
-  }
-  const auto divisions = view.get<std::array<long, 3>>("divisions").value();
-  std::transform(divisions.begin(), divisions.end(), spec.divisions.begin(),
-                 [](long n) { return static_cast<int>(n); });
+  spec.body = body_of(view);
+  if (const auto grading = view.table("grading")) spec.gradings = gradings_of(*grading);
   for (const View& cut : view.tables("minus")) spec.minus.push_back(box_of(cut));
   spec.formulation = word(view, "formulation");
   spec.hourglass = view.get<std::string>("hourglass").value_or("");
@@ -43,11 +64,8 @@ HexahedraSpec hexahedra_of(const View& view) {
 }
 
 Shape shape_of(const View& view) {
-  if (const auto c = view.table("cylinder"))
-    return Cylinder{c->get<Vec3>("from").value(), c->get<Vec3>("to").value(),
-                    c->get<double>("radius").value()};
-  if (const auto b = view.table("ball"))
-    return Ball{b->get<Vec3>("centre").value(), b->get<double>("radius").value()};
+  if (const auto cylinder = view.table("cylinder")) return cylinder_of(*cylinder);
+  if (const auto ball = view.table("ball")) return ball_of(*ball);
   return box_of(view);
 }
 

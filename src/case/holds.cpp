@@ -46,9 +46,10 @@ bool in_range(const Key& key, const std::optional<double>& value) {
 }
 
 bool are_counts(const Key& key, const toml::node& node) {
-  const auto counts = convert_array<long, 3>(node);
-  return counts && std::all_of(counts->begin(), counts->end(),
-                               [&](long count) { return key.range.contains(static_cast<double>(count)); });
+  const auto counts = convert_list<long>(node);
+  return counts && (counts->size() == 2 || counts->size() == 3) &&
+         std::all_of(counts->begin(), counts->end(),
+                     [&](long count) { return key.range.contains(static_cast<double>(count)); });
 }
 
 }  // namespace

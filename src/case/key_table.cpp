@@ -24,8 +24,7 @@ Table root() {
       {text("title", "One line that says what the case is.").otherwise("\"\""),
        within(Type::table, "units", "units", "The units that all numbers of the file are in.").required(),
        within(Type::named, "materials", "materials.*", "What the regions are made of.").required(),
-       within(Type::named, "regions", "regions.*",
-              "The bodies: blocks of hexahedra and lattices of particles.")
+       within(Type::named, "regions", "regions.*", "The bodies: hexahedra and lattices of particles.")
            .required(),
        within(Type::table, "coupling", "coupling", "How hexahedra and particles are tied.").otherwise("{}"),
        within(Type::named, "curves", "curves.*", "Functions of time, for supports and loads."),
@@ -72,8 +71,17 @@ std::vector<Key> region_shape() {
             "Instead of a box: the eight corners of a block, in VTK's order (four around the bottom, "
             "counter-clockwise from above, and the four above them).")
           .when(hexahedra),
+      within(Type::table, "ball", "ball", "Instead of a box: a ball, made of a core and shells around it.")
+          .when(hexahedra),
+      within(Type::table, "cylinder", "cylinder",
+             "Instead of a box: a cylinder, every layer of which is made of a core and shells around it.")
+          .when(hexahedra),
       value(Type::boxes, "boxes", "length", "Instead of one box: several, which may overlap.").when(lattice),
-      value(Type::counts, "divisions", "-", "Hexahedra along the block's three directions.")
+      value(
+          Type::counts, "divisions", "-",
+          "Hexahedra along the block's three directions; of a ball [core, shells]: core × core × core in the "
+          "middle and so many shells around them, best about half as many; of a cylinder [core, shells, "
+          "layers].")
           .range_is({1, 1e6})
           .required()
           .when(hexahedra),
@@ -86,7 +94,9 @@ std::vector<Key> region_shape() {
 /// What is cut out of it, and how it is computed.
 std::vector<Key> region_details() {
   return {
-      within(Type::tables, "minus", "cut", "What is cut out of the block.").when(hexahedra),
+      within(Type::table, "grading", "grading", "Directions along which the hexahedra are not of one length.")
+          .when(hexahedra),
+      within(Type::tables, "minus", "cut", "What is cut out of the body.").when(hexahedra),
       within(Type::tables, "minus", "shape",
              "What is cut out of the boxes: sites with their centre in it stay empty.")
           .when(lattice),
@@ -115,12 +125,13 @@ Table regions() {
   for (const Key& key : region_details()) keys.push_back(key);
   return {"regions.*",
           "[regions.NAME]",
-          "A block of hexahedra, or a lattice of particles: spheres of one radius r, flush with the box that "
+          "A block, ball or cylinder of hexahedra, or a lattice of particles: spheres of one radius r, flush "
+          "with the box that "
           "they fill, "
           "their centres 2r apart. Every edge of a lattice's box is a whole number of diameters long; "
           "several boxes lie on one grid.",
           keys,
-          {{true, {"box", "corners"}, hexahedra}, {true, {"box", "boxes"}, lattice}}};
+          {{true, {"box", "corners", "ball", "cylinder"}, hexahedra}, {true, {"box", "boxes"}, lattice}}};
 }
 
 Table cut() {
@@ -128,6 +139,31 @@ Table cut() {
           "{ box = … }",
           "A piece to cut out of a block of hexahedra.",
           {value(Type::box, "box", "length", "Lowest and highest corner.").required()}};
+}
+
+Table grading() {
+  return {
+      "grading",
+      "{ x = …, y = …, z = …, radius = … }",
+      "Directions of a region of hexahedra along which their lengths grow geometrically: x, y and z are the "
+      "block's own three directions. Of a ball they are those of its core, and radius is that of its shells, "
+      "low at the core and high at the surface. Of a cylinder z is along the axis; x and y, across it, are "
+      "the coordinate axes that follow the axis's own in the order x, y, z, x, y.",
+      {within(Type::table, "x", "graded", "Along x."), within(Type::table, "y", "graded", "Along y."),
+       within(Type::table, "z", "graded", "Along z."),
+       within(Type::table, "radius", "graded", "Through the shells of a ball or cylinder.")},
+      {{false, {"x", "y", "z", "radius"}}}};
+}
+
+Table graded() {
+  return {
+      "graded",
+      "{ towards = …, ratio = … }",
+      "Lengths of elements along one direction.",
+      {choice("towards", {"low", "high", "middle", "ends"}, "Where the shortest elements are.").required(),
+       number("ratio", "-", "Length of the longest element over that of the shortest one.")
+           .range_is({1, 1000})
+           .required()}};
 }
 
 Table shape() {
@@ -182,26 +218,12 @@ Table curves() {
 }  // namespace
 
 const std::vector<Table>& key_table() {
-  static const std::vector<Table> tables{root(),
-                                         units(),
-                                         materials(),
-                                         regions(),
-                                         cut(),
-                                         shape(),
-                                         cylinder(),
-                                         ball(),
-                                         coupling(),
-                                         curves(),
-                                         where_table(),
-                                         supports_table(),
-                                         displacement_table(),
-                                         velocity_table(),
-                                         loads_table(),
-                                         initial_table(),
-                                         analysis_table(),
-                                         probes_table(),
-                                         output_table(),
-                                         every_table()};
+  static const std::vector<Table> tables{
+      root(),           units(),       materials(),     regions(),        cut(),
+      grading(),        graded(),      shape(),         cylinder(),       ball(),
+      coupling(),       curves(),      where_table(),   supports_table(), displacement_table(),
+      velocity_table(), loads_table(), initial_table(), analysis_table(), probes_table(),
+      output_table(),   every_table()};
   return tables;
 }
 

@@ -86,7 +86,7 @@ std::string words(const Key& key) {
     case Type::corners:
       return "eight points [x, y, z] in VTK's order";
     case Type::counts:
-      return "three whole numbers [x, y, z], each";
+      return "two or three whole numbers, each";
     case Type::points:
       return "a list of pairs [time, value], each later than the one before";
     case Type::interval:

@@ -21,7 +21,7 @@ enum class Type {
   box,        ///< [[x, y, z], [x, y, z]], low corner first
   boxes,      ///< list of boxes
   corners,    ///< eight points in VTK's order
-  counts,     ///< three whole numbers
+  counts,     ///< two or three whole numbers
   points,     ///< [[time, value], …], times strictly increasing
   interval,   ///< a number or [low, high]
   choice,     ///< one of the key's choices

@@ -82,7 +82,35 @@ are refused.
 
 )";
 
-constexpr std::string_view where_and_set = R"(## Selections: `where`
+constexpr std::string_view where_and_set = R"(## Balls and cylinders of hexahedra
+
+A ball has a core of hexahedra in its middle and shells of hexahedra from there to its surface, so none is degenerate; a
+cylinder has the same in every layer. Its volume, and hence its mass, is that of the hexahedra, a little less than the
+ball's own. `minus` cuts along faces of elements only: for a half, a quarter or an eighth the core's number is even, and
+across the plane through the centre the grading, if any, is towards `middle` or `ends`. Here a quarter of a ball, finest
+at its poles on the z axis, where it may touch something:
+
+```toml
+[regions.ball]
+type = "hexahedra"
+material = "steel"
+ball = { centre = [0, 0, 10], radius = 10 }
+divisions = [16, 8]                                # core, shells
+minus = [{ box = [[-10, -10, 0], [0, 10, 20]] }, { box = [[0, -10, 0], [10, 0, 20]] }]
+
+[regions.ball.grading]
+x = { towards = "middle", ratio = 8 }
+y = { towards = "middle", ratio = 8 }
+radius = { towards = "high", ratio = 8 }
+
+[regions.pin]
+type = "hexahedra"
+material = "steel"
+cylinder = { from = [30, 0, 0], to = [30, 0, 20], radius = 4 }
+divisions = [6, 3, 15]                             # core, shells, layers
+```
+
+## Selections: `where`
 
 Supports, loads, initial motion and probes act on what `where` selects; if it gives several conditions, all of them must
 hold. A plane selects the nodes on it and the particles whose cell touches it; an interval selects nodes and particle

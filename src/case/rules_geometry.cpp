@@ -1,4 +1,4 @@
-// Rules of one region's geometry that need no mesh.
+// Rules of a lattice's geometry that need no mesh.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,6 @@ namespace geist {
 
 namespace {
 
-constexpr double most_places = 2e9;  // sites or elements in a region, nodes or sites along an axis
 constexpr double most_radii_tried = 1e4;
 constexpr std::array<char, 3> axes{'x', 'y', 'z'};
 
@@ -111,22 +110,16 @@ void check_number(Document& document, const View& region, const Packing& packing
     for (const Box& box : packing.boxes) low = std::min(low, box.low[a]), high = std::max(high, box.high[a]);
     number *= (high - low) / (2 * packing.radius);
   }
-  if (!(number <= most_places))
-    document.report(
-        place_of(region, packing),
-        fmt::format("about {:.2g} particles; a region may have {:.0e} at most", number, most_places));
+  if (!(number <= most_places_in_region))
+    document.report(place_of(region, packing),
+                    fmt::format("about {:.2g} particles; a region may have {:.0e} at most", number,
+                                most_places_in_region));
 }
 
 }  // namespace
 
 void check_lattice(Document& document, const View& region) {
-  for (const View& cut : region.tables("minus")) {
-    const auto cylinder = cut.table("cylinder");
-    const auto from = cylinder ? cylinder->get<Vec3>("from") : std::nullopt;
-    if (from && from == cylinder->get<Vec3>("to"))
-      document.report(cylinder->place("to"),
-                      "the cylinder has no length: 'from' and 'to' are the same point");
-  }
+  for (const View& cut : region.tables("minus")) check_length(document, cut.table("cylinder"));
   const auto box = region.get<Box>("box");
   const auto boxes = region.get<std::vector<Box>>("boxes");
   const auto radius = region.get<double>("radius");
@@ -138,30 +131,10 @@ void check_lattice(Document& document, const View& region) {
   if (check_edges(document, region, packing)) check_offsets(document, region, packing);
 }
 
-void check_hexahedra(Document& document, const View& region) {
-  if (const auto divisions = region.get<std::array<long, 3>>("divisions")) {
-    const auto [nx, ny, nz] = *divisions;
-    const double number = static_cast<double>(nx) * static_cast<double>(ny) * static_cast<double>(nz);
-    if (number > most_places)
-      document.report(
-          region.place("divisions"),
-          fmt::format("about {:.2g} hexahedra; a region may have {:.0e} at most", number, most_places));
-  }
-  const auto corners = region.get<std::array<Vec3, 8>>("corners");
-  if (!corners) return;
-  // Each corner and its three neighbours, right-handed.
-  constexpr std::array<std::array<std::size_t, 3>, 8> next{
-      {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
-  for (std::size_t c = 0; c < 8; ++c) {
-    const Vec3 at = (*corners)[c];
-    const auto edge = [&](std::size_t n) { return (*corners)[next[c][n]] - at; };
-    if (dot(edge(0), cross(edge(1), edge(2))) > 0) continue;
-    document.report(region.place("corners"),
-                    fmt::format("the block is inside out at corner {} of 8: the order is four corners around "
-                                "the bottom, counter-clockwise from above, then the four above them",
-                                c + 1));
-    return;
-  }
+void check_length(Document& document, const std::optional<View>& cylinder) {
+  const auto from = cylinder ? cylinder->get<Vec3>("from") : std::nullopt;
+  if (from && from == cylinder->get<Vec3>("to"))
+    document.report(cylinder->place("to"), "the cylinder has no length: 'from' and 'to' are the same point");
 }
 
 }  // namespace geist

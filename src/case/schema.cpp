@@ -70,7 +70,7 @@ Json shape_of(const Key& key) {
     case Type::corners:
       return list(vector(), 8, 8);
     case Type::counts:
-      return list(limited("integer", key.range), 3, 3);
+      return list(limited("integer", key.range), 2, 3);
     case Type::points:
       return list(list({{"type", "number"}}, 2, 2), 1, 0);
     case Type::interval:

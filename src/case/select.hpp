@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "geometry/block.hpp"
+#include "geometry/facets.hpp"
 #include "solver/probes.hpp"
 
 namespace geist {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/block.hpp"
+#include "geometry/facets.hpp"
 #include "geometry/hex8.hpp"
 
 namespace geist::coupling {

@@ -21,6 +21,20 @@ bool newton_step(const Corners& x, Vec3 residual, Vec3 xi, double scale, Vec3& s
   return true;
 }
 
+/// Whether parallel edges are so nearly equal, and those that meet so far from one plane, that det J > 0
+/// follows everywhere: the columns of J are means of parallel edges. Most elements are, and this is quickly
+/// seen.
+bool is_parallelepiped(const Corners& x) {
+  const Vec3 a = x[1] - x[0], b = x[3] - x[0], c = x[4] - x[0];
+  const auto equal = [](Vec3 edge, Vec3 other) {
+    return dot(other - edge, other - edge) <= 1e-12 * dot(edge, edge);
+  };
+  return equal(a, x[2] - x[3]) && equal(a, x[5] - x[4]) && equal(a, x[6] - x[7]) &&  //
+         equal(b, x[2] - x[1]) && equal(b, x[7] - x[4]) && equal(b, x[6] - x[5]) &&  //
+         equal(c, x[5] - x[1]) && equal(c, x[6] - x[2]) && equal(c, x[7] - x[3]) &&
+         dot(a, cross(b, c)) > 1e-3 * norm(a) * norm(b) * norm(c);
+}
+
 }  // namespace
 
 Corners corners(const Mesh& mesh, std::size_t e) {
@@ -97,6 +111,8 @@ double smallest_determinant(const Corners& x) {
   for (Vec3 s : corner_xi) smallest = std::min({smallest, det(jacobian(x, s)), det(jacobian(x, gauss * s))});
   return smallest;
 }
+
+bool valid(const Corners& x) { return is_parallelepiped(x) || smallest_determinant(x) > 0; }
 
 std::array<double, 8> corner_volumes(const Corners& x) {
   std::array<double, 8> v{};

@@ -119,6 +119,43 @@ TEST(Build, RefusesWhatDoesNotFitIntoMemory) {
                      {"'a'", "1.9e+09 hexahedra", "GiB of memory"});
 }
 
+const std::string quarter_ball =
+    "[regions.ball]\ntype = \"hexahedra\"\nmaterial = \"m\"\nball = { centre = [0, 0, 10], radius = 10 }\n"
+    "divisions = [8, 4]\n"
+    "minus = [{ box = [[-10, -10, 0], [0, 10, 20]] }, { box = [[0, -10, 0], [10, 0, 20]] }]\n"
+    "[regions.ball.grading]\nx = { towards = \"middle\", ratio = 8 }\ny = { towards = \"middle\", ratio = 8 "
+    "}\n"
+    "radius = { towards = \"high\", ratio = 8 }\n";
+const std::string pin =
+    "[regions.pin]\ntype = \"hexahedra\"\nmaterial = \"m\"\n"
+    "cylinder = { from = [30, 0, 0], to = [30, 0, 20], radius = 4 }\ndivisions = [6, 3, 15]\n";
+
+TEST(Build, MakesBallsAndCylindersOfHexahedra) {
+  const Case input = read_case_text(materials + quarter_ball + pin + dynamic, "round.toml");
+  const Built built = build(input);
+  const Mesh& mesh = built.simulation.model.mesh;
+  EXPECT_EQ(mesh.regions[0].count, (512u + 6 * 64 * 4) / 4);
+  EXPECT_EQ(mesh.regions[1].count, (36u + 4 * 6 * 3) * 15);
+  double mass = 0;
+  for (const double m : mesh.mass) mass += m;
+  const double pi = std::acos(-1.0);
+  EXPECT_NEAR(mass / (0.001 * (pi / 3 * 1000 + pi * 16 * 20)), 1, 0.05);
+  EXPECT_GT(built.simulation.dt, 0);
+}
+
+TEST(Build, CutsABallAlongFacesOnly) {
+  std::string text = materials + quarter_ball + dynamic;
+  const std::size_t at = text.find("\"middle\"");
+  expect_build_error(text.replace(at, 8, "\"high\""), "[regions.ball]",
+                     {"'ball'", "a box of 'minus' cuts through the element at"});
+}
+
+TEST(Build, RefusesABallThatDoesNotFitIntoMemory) {
+  std::string text = materials + quarter_ball + dynamic;
+  expect_build_error(text.replace(text.find("[8, 4]"), 6, "[700, 400]"), "[regions.ball]",
+                     {"'ball'", "1.52e+09 hexahedra", "GiB of memory"});
+}
+
 TEST(Build, NeedsNoCoupling) {
   const Case hexahedra =
       read_case_text(materials +

@@ -41,6 +41,23 @@ material = "steel"
 box = [[10, 0, 0], [11, 2, 3]]
 divisions = [1, 2, 3]
 
+[regions.newt]
+type = "hexahedra"
+material = "steel"
+ball = { centre = [20, 0, 0], radius = 2 }
+divisions = [4, 3]
+[regions.newt.grading]
+x = { towards = "middle", ratio = 2 }
+y = { towards = "ends", ratio = 1.5 }
+z = { towards = "high", ratio = 3 }
+radius = { towards = "low", ratio = 2 }
+
+[regions.worm]
+type = "hexahedra"
+material = "steel"
+cylinder = { from = [30, 0, 0], to = [30, 0, 8], radius = 1 }
+divisions = [2, 1, 5]
+
 [coupling]
 type = "none"
 rotation = "none"

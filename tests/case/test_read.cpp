@@ -31,9 +31,10 @@ TEST(Read, Beam) {
   EXPECT_EQ(beam.regions[0].name, "left");
   EXPECT_EQ(beam.regions[1].name, "middle");
   const auto& left = std::get<HexahedraSpec>(beam.regions[0].shape);
-  EXPECT_EQ(left.corners[6], (Vec3{7, 2, 2}));
-  EXPECT_EQ(left.corners[3], (Vec3{0, 2, 0}));
-  EXPECT_EQ(left.divisions, (std::array<int, 3>{14, 4, 4}));
+  const auto& block = std::get<BlockBody>(left.body);
+  EXPECT_EQ(block.corners[6], (Vec3{7, 2, 2}));
+  EXPECT_EQ(block.corners[3], (Vec3{0, 2, 0}));
+  EXPECT_EQ(block.divisions, (std::array<int, 3>{14, 4, 4}));
   EXPECT_EQ(left.formulation, "selective-reduced");
   const auto& middle = std::get<LatticeSpec>(beam.regions[1].shape);
   EXPECT_EQ(middle.radius, 0.1);
@@ -52,7 +53,7 @@ TEST(Read, WideBeam) {
 
 TEST(Read, RegionsKeepTheirOrder) {
   const Case all = read_everything();
-  ASSERT_EQ(all.regions.size(), 3u);
+  ASSERT_EQ(all.regions.size(), 5u);
   EXPECT_EQ(all.regions[0].name, "zebra");
   EXPECT_EQ(all.regions[1].name, "ant");
   EXPECT_EQ(all.regions[2].name, "mole");
@@ -62,12 +63,34 @@ TEST(Read, RegionsKeepTheirOrder) {
 TEST(Read, HexahedraFromCorners) {
   const Case all = read_everything();
   const auto& zebra = std::get<HexahedraSpec>(all.regions[0].shape);
-  EXPECT_EQ(zebra.corners[6], (Vec3{2.5, 2.5, 2.5}));
+  EXPECT_EQ(std::get<BlockBody>(zebra.body).corners[6], (Vec3{2.5, 2.5, 2.5}));
   EXPECT_EQ(zebra.formulation, "one-point");
   EXPECT_EQ(zebra.hourglass, "viscous");
   EXPECT_EQ(zebra.hourglass_coefficient, 0.1);
   EXPECT_EQ(zebra.minus.at(0).high, (Vec3{1, 1, 1}));
   EXPECT_EQ(std::get<HexahedraSpec>(all.regions[2].shape).hourglass, "");
+}
+
+TEST(Read, RoundBodiesOfHexahedra) {
+  const Case all = read_everything();
+  const auto& newt = std::get<HexahedraSpec>(all.regions[3].shape);
+  const auto& ball = std::get<BallBody>(newt.body);
+  EXPECT_EQ(ball.shape.centre, (Vec3{20, 0, 0}));
+  EXPECT_EQ(ball.shape.radius, 2);
+  EXPECT_EQ(ball.core, 4);
+  EXPECT_EQ(ball.shells, 3);
+  EXPECT_EQ(newt.gradings.axis[0].towards, Towards::middle);
+  EXPECT_EQ(newt.gradings.axis[1].towards, Towards::ends);
+  EXPECT_EQ(newt.gradings.axis[1].ratio, 1.5);
+  EXPECT_EQ(newt.gradings.axis[2].towards, Towards::high);
+  EXPECT_EQ(newt.gradings.radius.towards, Towards::low);
+  const auto& worm = std::get<HexahedraSpec>(all.regions[4].shape);
+  const auto& cylinder = std::get<CylinderBody>(worm.body);
+  EXPECT_EQ(cylinder.shape.to, (Vec3{30, 0, 8}));
+  EXPECT_EQ(cylinder.core, 2);
+  EXPECT_EQ(cylinder.shells, 1);
+  EXPECT_EQ(cylinder.layers, 5);
+  EXPECT_EQ(worm.gradings.axis[2].ratio, 1);
 }
 
 TEST(Read, LatticeOfSeveralBoxes) {

@@ -24,7 +24,8 @@ TEST(Set, WordWithoutQuotes) {
 
 TEST(Set, ListsAndEntriesOfLists) {
   const Case changed = read_with({"regions.left.divisions=[14, 4, 2]", "loads.0.total_force=[0, 0, -2]"});
-  EXPECT_EQ(std::get<HexahedraSpec>(changed.regions[0].shape).divisions[0], 14);
+  const auto& left = std::get<HexahedraSpec>(changed.regions[0].shape);
+  EXPECT_EQ(std::get<BlockBody>(left.body).divisions, (std::array<int, 3>{14, 4, 2}));
   EXPECT_EQ(changed.loads[0].value.z, -2);
   EXPECT_EQ(read_with({"loads.0.total_force.2=-3"}).loads[0].value, (Vec3{0, 0, -3}));
 }
