@@ -116,12 +116,13 @@ void Contacts::meet_body(const Model& model, std::size_t number, double dt) {
   const Pair& pair = candidates_.pairs[number];
   const Contactor& c = contactors_[pair.contactor];
   const Vec3 x = places_.x.vector(c.place);
-  Probing probe{x, c.radius, reach(c), -1, {}};
-  if (c.radius == 0)
-    probe.node = c.place, probe.outward = area_vector(surface_, places_.x, c.place, c.region);
+  const std::span<const std::int32_t> facets(candidates_.facets.data() + pair.first,
+                                             static_cast<std::size_t>(pair.count));
+  Probing probe{x, c.radius, reach(c), c.radius == 0 ? c.place : -1, {}};
+  if (!may_touch(surface_, places_.x, facets, probe)) return;
+  if (c.radius == 0) probe.outward = area_vector(surface_, places_.x, c.place, c.region);
   Active& active = active_[number];
-  active.touch = touch(surface_, places_.x,
-                       {candidates_.facets.data() + pair.first, static_cast<std::size_t>(pair.count)}, probe);
+  active.touch = touch(surface_, places_.x, facets, probe);
   const Touch& t = active.touch;
   if (t.count == 0) return;
   const SurfaceFacet& deepest = surface_.facets[t.point[0].facet];

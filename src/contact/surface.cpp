@@ -5,7 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "geometry/block.hpp"
+#include "geometry/facets.hpp"
 #include "geometry/hex8.hpp"
 #include "geometry/triangle.hpp"
 

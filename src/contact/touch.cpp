@@ -35,6 +35,14 @@ bool falls(Vec3 away, Vec3 t) { return dot(away, t) > level * norm(away) * norm(
 /// The part of b − a that is orthogonal to edge e.
 Vec3 across_edge(Vec3 a, Vec3 b, Vec3 e) { return (b - a) - (dot(b - a, e) / dot(e, e)) * e; }
 
+/// Whether a contactor is as near to the plane of triangle k as it must be to touch it.
+bool near_plane(const FacetPoints& at, int k, const Probing& probe) {
+  const Vec3 normal = triangle_normal(at, k);
+  const double height = dot(probe.x - at.centre, normal);  // times twice the area
+  const double most = height > 0 ? probe.radius : probe.reach;
+  return most > 0 && height * height < most * most * dot(normal, normal);
+}
+
 /// Examines the triangles of one body around one contactor.
 class Examiner {
  public:
@@ -58,13 +66,11 @@ class Examiner {
       if (corner == probe_.node) return;
     const FacetPoints at = points_of(facet, x_);
     for (int k = 0; k < 4; ++k) {
+      if (!near_plane(at, k, probe_)) continue;
       const Vec3 normal = triangle_normal(at, k);
       const double twice_area = norm(normal);
-      const double height = dot(probe_.x - at.centre, normal);
-      const double out = std::max(probe_.radius, 0.0) * twice_area, in = probe_.reach * twice_area;
-      if (height >= out || height < -in) continue;
-      if (probe_.radius == 0 && dot(normal, probe_.outward) >= facing * twice_area * norm(probe_.outward))
-        continue;
+      const double towards = dot(normal, probe_.outward);
+      if (probe_.radius == 0 && towards >= facing * twice_area * norm(probe_.outward)) continue;
       keep(f, k, (1 / twice_area) * normal, at);
     }
   }
@@ -294,6 +300,15 @@ Touch shortest_way_out(std::span<const TouchPoint> points) {
       for (std::size_t k = j + 1; k < n; ++k)
         if (way.solve({i, j, k})) return way.result(3);
   return pinched(points);
+}
+
+bool may_touch(const Surface& surface, const Field<3>& x, std::span<const std::int32_t> facets,
+               const Probing& probe) {
+  return std::any_of(facets.begin(), facets.end(), [&](std::int32_t f) {
+    const FacetPoints at = points_of(surface.facets[f], x);
+    return near_plane(at, 0, probe) || near_plane(at, 1, probe) || near_plane(at, 2, probe) ||
+           near_plane(at, 3, probe);
+  });
 }
 
 Touch touch(const Surface& surface, const Field<3>& x, std::span<const std::int32_t> facets,

@@ -47,6 +47,11 @@ struct Probing {
 /// noise).
 inline constexpr double facing = -0.2;
 
+/// Whether the contactor is within reach of the plane of any of the facets' triangles: a quick no. Its
+/// outward normal need not be known.
+bool may_touch(const Surface& surface, const Field<3>& x, std::span<const std::int32_t> facets,
+               const Probing& probe);
+
 /// Touch of a contactor and the given facets of one body; x: positions of the surface's nodes.
 Touch touch(const Surface& surface, const Field<3>& x, std::span<const std::int32_t> facets,
             const Probing& probe);

@@ -52,13 +52,13 @@ double combined(double omega2_e, double g, bool viscous) {
   return omega * omega;
 }
 
-TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBounds& at) {
+TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBounds& at, bool held_too) {
   const bool viscous = has_viscous_control(region);
   double worst = 0;
   std::int32_t node = 0;
   for (std::size_t e = region.first; e < region.first + region.count; ++e)
     for (const std::int32_t i : mesh.elements[e]) {
-      if (mesh.held[i] == 0b111) continue;
+      if (mesh.held[i] == 0b111 && !held_too) continue;
       const double omega2 =
           combined(at.elements[i] / mesh.mass[i], (at.ghosts[i] + at.contacts[i]) / mesh.mass[i], viscous);
       if (omega2 > worst) worst = omega2, node = i;
@@ -74,7 +74,11 @@ TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBou
 std::vector<TimeStepBound> time_step_bounds(const Model& model, const contact::Contacts& contacts) {
   std::vector<TimeStepBound> bounds;
   const NodeBounds at = node_bounds(model, contacts);
-  for (const HexRegion& region : model.mesh.regions) bounds.push_back(hex_bound(model.mesh, region, at));
+  const auto held = [](std::uint8_t bits) { return bits == 0b111; };
+  const bool all_held =
+      model.lattices.empty() && std::all_of(model.mesh.held.begin(), model.mesh.held.end(), held);
+  for (const HexRegion& region : model.mesh.regions)
+    bounds.push_back(hex_bound(model.mesh, region, at, all_held));
   for (std::size_t l = 0; l < model.lattices.size(); ++l) {
     const Lattice& lattice = model.lattices[l];
     const double charge = contacts.particle_charge(model, static_cast<std::int32_t>(l));
