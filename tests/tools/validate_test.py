@@ -30,9 +30,10 @@ def vtu(arrays: list[bytes], compressed: bool) -> bytes:
             appended += struct.pack("<Q", len(raw)) + raw
     compressor = ' compressor="vtkZLibDataCompressor"' if compressed else ""
     return (f'<VTKFile{compressor}><UnstructuredGrid><Piece><PointData><DataArray type="Float32" Name="radius" '
-            f'NumberOfComponents="1" format="appended" offset="{offsets[1]}"/></PointData><Points><DataArray '
-            f'type="Float64" Name="Points" NumberOfComponents="3" format="appended" offset="{offsets[0]}"/></Points></Piece>'
-            '</UnstructuredGrid>\n<AppendedData encoding="raw">\n_').encode() + appended + b"\n</AppendedData>\n</VTKFile>\n"
+            f'NumberOfComponents="1" format="appended" offset="{offsets[1]}"/></PointData><Points>'
+            f'<DataArray type="Float64" Name="Points" NumberOfComponents="3" format="appended" offset="{offsets[0]}"/>'
+            '</Points></Piece></UnstructuredGrid>\n<AppendedData encoding="raw">\n_').encode() + appended + (
+                b"\n</AppendedData>\n</VTKFile>\n")
 
 
 class ReadsFields(unittest.TestCase):

@@ -90,13 +90,14 @@ def claims(results: Results) -> list[Claim]:
     later = percent(coupled / fe - 1, 1)
     return [
         Claim(SOURCE, quote, meaning, displacement, Band(0, SAME_CURVE),
-              f"{100 * displacement:.1f} % of the peak apart; first periods {coupled:.3f} and {fe:.3f} ms, {later}", True,
+              f"{100 * displacement:.1f} % of the peak apart; first periods {coupled:.3f} and {fe:.3f} ms, {later}",
+              True,
               "The coupled beam is 4 % softer, by its particles' free surfaces, so it falls behind by as much in every "
               "period.", about="displacement"),
         Claim(SOURCE, quote, meaning, velocity, Band(0, SAME_CURVE),
               f"{100 * velocity:.1f} % of the peak apart", False,
-              "A load applied at once excites the higher modes, which run out of step sooner. The paper's loading curve "
-              "is in a figure that we do not have; if the load rises within 1 ms, velocities are "
+              "A load applied at once excites the higher modes, which run out of step sooner. The paper's loading "
+              "curve is in a figure that we do not have; if the load rises within 1 ms, velocities are "
               f"{100 * apart(results, 'velocity', 'within 1 ms'):.1f} % apart.", about="velocity"),
     ]
 
@@ -124,8 +125,8 @@ def draw(results: Results) -> Figure:
     h = results["coupled, load at once"].history
     for name in ("kinetic_translation", "strain_elements", "strain_bonds", "strain_coupling", "external"):
         energy.plot(h["time"], h[name], label=name.replace("_", " "), linewidth=1)
-    label(displacement, "", "displacement [mm]", "middle of the end face")
-    label(velocity, "", "velocity [mm/ms]", "the same, in the first periods")
+    label(displacement, "time [ms]", "displacement [mm]", "middle of the end face")
+    label(velocity, "time [ms]", "velocity [mm/ms]", "the same, in the first periods")
     label(energy, "time [ms]", "energy [mJ]", "coupled")
     for axes in (displacement, velocity, energy):
         axes.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=5, frameon=False)

@@ -48,7 +48,7 @@ def claims_on_size(results: Results) -> list[Claim]:
               Band(low=2), f"{freedoms:.1f} times as many at 12 mm as at 2 mm", True),
         Claim(SOURCE, "as well as the computation time", "more than doubled from 2 to 12 mm", time, Band(low=2),
               f"{time:.1f} times as long at 12 mm as at 2 mm", None,
-              "It rises with every length but less than the degrees of freedom: a particle's step costs Geist "
+              "It rises less than the degrees of freedom: a particle's step costs Geist "
               f"1/{cheaper(large):.0f} of a hexahedron's."),
         Claim(SOURCE, "the significantly increased proportion of the DoFs of DE particles", "rises with every length",
               min(share(results[f"{b} mm"]) - share(results[f"{a} mm"]) for a, b in zip(LENGTHS, LENGTHS[1:])),
@@ -95,7 +95,7 @@ def draw(results: Results) -> Figure:
     label(time, "length of the discrete region [mm]", "run time [s]")
     label(tip, "length of the discrete region [mm]", "tip deflection [mm]")
     freedoms.legend()
-    tip.legend(loc="lower right")
+    tip.legend(loc="upper left")
     return figure
 
 
