@@ -106,4 +106,4 @@ class Study:
     claims: Callable[[Results], list[Claim]]
     checks: Callable[[Results], list[Check]]
     pictures: list[Picture]
-    timed: bool = False  # run with nothing beside it
+    timed: bool = False  # run by themselves, and more than once

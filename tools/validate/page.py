@@ -27,7 +27,9 @@ conference paper's.
 """
 
 TAKEN = """"Close" is within 3 %: the conference paper calls 0.388 mm "very close" to 0.4 mm. Curves "agree" if the root
-mean square of their difference is below 5 % of the peak, about what can be told from a plot.
+mean square of their difference is below 5 % of the peak, about what can be told from a plot; histories are compared over
+two periods. "Dramatically" is more than twice. But for the 3 % these limits are ours, not the papers': the figures stand
+beside every verdict, for other limits. Run times, and the verdicts on them, depend on the machine and what else it does.
 """
 
 

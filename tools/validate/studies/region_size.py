@@ -35,7 +35,7 @@ def cheaper(result: Result) -> float:
 def tables(results: Results) -> list[Table]:
     rows = [[name, f"{r.freedoms:,}", f"{100 * share(r):.0f} %", f"{r.tip:.5f}", percent(r.tip / THEORY - 1),
              f"{r.steps:,}", f"{microseconds(r):.0f}", f"{r.seconds:.1f}"] for name, r in results.items()]
-    return [Table("One run after the other with nothing beside it; times vary from machine to machine",
+    return [Table("One run after the other, the fastest of three; times vary from machine to machine",
                   ["particles", "degrees of freedom", "of particles", "tip, mm", "against beam theory", "steps",
                    "µs a step", "run time, s"], rows)]
 
