@@ -72,7 +72,8 @@ def vibration(results: Results) -> Table:
 
 
 def differences(results: Results) -> Table:
-    over = [(name, 2) for name in RISES] + [("at once", periods) for periods in (1, 10) if long_enough(results, periods)]
+    over = [(name, 2) for name in RISES]
+    over += [("at once", periods) for periods in (1, 10) if long_enough(results, periods)]
     rows = [[name, f"{periods}", *(f"{100 * apart(results, q, name, periods):.1f} %" for q in QUANTITIES)]
             for name, periods in over]
     return Table("Difference between the two models, root mean square, of the peak",
