@@ -28,6 +28,7 @@ Table root() {
               "The bodies: blocks of hexahedra and lattices of particles.")
            .required(),
        within(Type::table, "coupling", "coupling", "How hexahedra and particles are tied.").otherwise("{}"),
+       within(Type::tables, "contact", "contact[]", "Which bodies act on each other where they touch."),
        within(Type::named, "curves", "curves.*", "Functions of time, for supports and loads."),
        within(Type::tables, "supports", "supports[]", "Where the motion is prescribed."),
        within(Type::tables, "loads", "loads[]", "Where forces act."),
@@ -191,6 +192,7 @@ const std::vector<Table>& key_table() {
                                          cylinder(),
                                          ball(),
                                          coupling(),
+                                         contact_table(),
                                          curves(),
                                          where_table(),
                                          supports_table(),

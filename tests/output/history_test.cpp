@@ -59,7 +59,8 @@ TEST(History, HeaderNamesEveryColumn) {
   History(scratch / "history.csv", probes);
   EXPECT_EQ(read_text(scratch / "history.csv"),
             "step,time,tip,reaction,kinetic_translation,kinetic_rotation,strain_elements,strain_bonds,"
-            "strain_coupling,hourglass,damping,external,initial,balance,momentum_x,momentum_y,momentum_z,"
+            "strain_coupling,hourglass,contact,damping,friction,contact_damping,external,initial,balance,"
+            "momentum_x,momentum_y,momentum_z,"
             "angular_momentum_x,angular_momentum_y,angular_momentum_z,residual\n");
 }
 
