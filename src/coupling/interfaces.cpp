@@ -138,16 +138,19 @@ std::optional<Clash> around_particle(const Lattice& lattice, std::size_t s, cons
   return std::nullopt;
 }
 
-/// A node of a region's surface that lies in a hexahedron which it is no corner of.
+/// A node of a region's surface that lies in a hexahedron which it is no corner of. One on the faces of
+/// others overlaps them if its own hexahedron does, just inside of the node; otherwise it touches them.
 std::optional<Clash> between_hexahedra(const Model& model, const Locator& locator, const LoosePairs& loose) {
   const Mesh& mesh = model.mesh;
   for (const Facet& facet : exterior_facets(mesh))
     for (const std::int32_t node : facet.node) {
       const Vec3 p = mesh.points[node];
-      const auto found = locator.find(p, -1e-6, node);
+      auto found = locator.find(p, -1e-6, node);
       const auto touching = found ? found : locator.find(p, 1e-6, node);
       if (!touching) continue;
       const std::string a = region_of(mesh, facet.element).name, b = region_of(mesh, touching->element).name;
+      const Vec3 centre = hex8::map(hex8::corners(mesh, static_cast<std::size_t>(facet.element)), {0, 0, 0});
+      if (!found) found = locator.find(p + 1e-5 * (centre - p), 1e-7, node);
       if (!found && loose.contains(a, b)) continue;
       return Clash{
           a, b,

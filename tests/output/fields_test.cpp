@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <regex>
 #include <set>
@@ -19,6 +21,7 @@ using geist::testing::error_of;
 using geist::testing::FullDisk;
 using geist::testing::read_text;
 using geist::testing::read_vtu;
+using geist::testing::ReadArray;
 using geist::testing::Scratch;
 using geist::testing::small_simulation;
 
@@ -89,6 +92,36 @@ TEST(Fields, ParticlesShowMotionAndEnergy) {
             static_cast<float>(de::site_energies(lattice)[s]));
   EXPECT_EQ(read.arrays["PointData/intact_bonds"].values[p], 9);
   EXPECT_EQ(read.arrays["PointData/region"].values[p], 1);
+}
+
+/// Two bodies of the small model pressed into each other: forces at the places that touch, which add up to
+/// nothing.
+TEST(Fields, ContactForcesAreShown) {
+  const Scratch scratch;
+  Simulation sim = small_simulation();
+  Lattice& lattice = sim.model.lattices[0];
+  lattice.ghosts.clear();
+  for (std::uint32_t& word : lattice.word) word = word & site::particle ? site::particle | site::free : 0;
+  connect(lattice);
+  sim.model.mesh.mass.assign(sim.model.mesh.nodes(), 1.0);
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < sim.model.mesh.nodes(); ++i) sim.model.mesh.u[c][i] = c == 0 ? 0.05 : 0;
+  contact::LawTable laws(2);
+  laws.set(0, 1, {});
+  sim.contacts = contact::Contacts(sim.model, laws);
+  sim.contacts.find(sim.model, 0);
+  FieldWriter(scratch.path, units).write(sim);
+  double total = 0, most = 0;
+  for (const std::string part : {"hexahedra", "particles"}) {
+    auto read = read_vtu(scratch / ("fields/" + part + "_000120.vtu"));
+    const ReadArray& forces = read.arrays["PointData/contact_force"];
+    EXPECT_EQ(forces.components, 3);
+    EXPECT_EQ(forces.unit, "N");
+    for (std::size_t i = 0; i < forces.values.size(); i += 3)
+      total += forces.values[i], most = std::max(most, std::abs(forces.values[i]));
+  }
+  EXPECT_GT(most, 0.01);
+  EXPECT_NEAR(total, 0, 1e-6 * most);
 }
 
 TEST(Fields, GhostsShowTheirHexahedron) {

@@ -68,7 +68,8 @@ TEST(History, WhatDoesNotExistIsEmpty) {
   const Scratch scratch;
   History history(scratch / "history.csv", {});
   history.write({.step = 1, .time = 0.5, .probes = {}, .ledger = {}});
-  EXPECT_TRUE(read_text(scratch / "history.csv").ends_with("\n1,0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,\n"));
+  EXPECT_TRUE(
+      read_text(scratch / "history.csv").ends_with("\n1,0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,\n"));
 }
 
 TEST(History, AwkwardNamesAreQuotedAndClashesRefused) {
