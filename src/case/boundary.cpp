@@ -123,7 +123,8 @@ Probe make_probe(const Case& input, const ProbeSpec& spec, const Selector& selec
   probe.quantity = choose<Quantity>(spec.quantity, {{"displacement", Quantity::displacement},
                                                     {"velocity", Quantity::velocity},
                                                     {"rotation", Quantity::rotation},
-                                                    {"reaction", Quantity::reaction}});
+                                                    {"reaction", Quantity::reaction},
+                                                    {"contact-force", Quantity::contact_force}});
   probe.component = choose<int>(spec.component, {{"x", 0}, {"y", 1}, {"z", 2}, {"magnitude", 3}});
   probe.reduce = choose<Reduce>(
       spec.reduce,

@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "case/boundary.hpp"
+#include "case/contact_laws.hpp"
 #include "case/diagnostic.hpp"
 #include "coupling/interfaces.hpp"
 #include "fe/elements.hpp"
 #include "geometry/block.hpp"
 #include "geometry/bounds.hpp"
 #include "geometry/packing.hpp"
+#include "geometry/separate.hpp"
 
 namespace geist {
 namespace {
@@ -84,6 +87,15 @@ void check_memory(const Case& input) {
   }
 }
 
+/// Blocks of a pair that is named in [[contact]] share no nodes.
+void separate_contacts(Mesh& mesh, const Case& input) {
+  const coupling::LoosePairs named = named_pairs(input);
+  for (std::size_t a = 0; a < mesh.regions.size(); ++a)
+    for (std::size_t b = a + 1; b < mesh.regions.size(); ++b)
+      if (named.contains(mesh.regions[a].name, mesh.regions[b].name))
+        separate(mesh, mesh.regions[a], mesh.regions[b]);
+}
+
 void make_regions(Model& model, const Case& input) {
   for (const RegionSpec& spec : input.regions)
     at_region(input, spec, [&] {
@@ -92,6 +104,7 @@ void make_regions(Model& model, const Case& input) {
       else
         model.lattices.push_back(make_lattice(input, spec, std::get<LatticeSpec>(spec.shape)));
     });
+  separate_contacts(model.mesh, input);
   finish(model.mesh);
   fe::lump_masses(model.mesh);
 }
@@ -102,13 +115,33 @@ const RegionSpec& spec_of(const Case& input, const std::string& name) {
   throw std::logic_error("no region " + name);
 }
 
+/// Named pairs, but for lattices that lie flush on their hexahedra and so are bonded to them.
+coupling::LoosePairs loose_pairs(const Model& model, const Case& input, const Locator& locator) {
+  const coupling::LoosePairs named = named_pairs(input);
+  coupling::LoosePairs loose;
+  for (const RegionSpec& a : input.regions)
+    for (const RegionSpec& b : input.regions)
+      if (a.shape.index() == b.shape.index() && named.contains(a.name, b.name)) loose.add(a.name, b.name);
+  for (const Lattice& lattice : model.lattices)
+    for (const HexRegion& region : model.mesh.regions)
+      if (named.contains(lattice.name, region.name) && !coupling::flush(lattice, region, locator))
+        loose.add(lattice.name, region.name);
+  return loose;
+}
+
 /// Ghosts, bonds, state and lists of all lattices.
 void couple(Model& model, const Case& input) {
   const Locator locator(model.mesh);
   const bool coupled = input.coupling == "ghost-particles";
-  for (Lattice& lattice : model.lattices)
-    if (coupled) coupling::place_ghosts(lattice, model.mesh, locator);
-  if (const auto clash = coupling::find_clash(model, locator, coupled))
+  const coupling::LoosePairs loose = loose_pairs(model, input, locator);
+  for (Lattice& lattice : model.lattices) {
+    if (!coupled) continue;
+    std::vector<bool> without_ghosts;
+    for (const HexRegion& region : model.mesh.regions)
+      without_ghosts.push_back(loose.contains(lattice.name, region.name));
+    coupling::place_ghosts(lattice, model.mesh, locator, without_ghosts);
+  }
+  if (const auto clash = coupling::find_clash(model, locator, coupled, loose))
     throw error_at(input, spec_of(input, clash->first).source, clash->message);
   for (Lattice& lattice : model.lattices) {
     trim(lattice);
@@ -126,6 +159,9 @@ void hold_ghost_spins(Model& model, const Case& input) {
 
 double choose_time_step(const Case& input, const std::vector<TimeStepBound>& bounds) {
   const TimeStepBound& least = critical(bounds);
+  if (!input.analysis.time_step && std::isinf(least.bound))
+    throw error_at(input, input.analysis.source,
+                   "all nodes are held, so nothing limits the time step; give 'time_step'");
   if (!input.analysis.time_step) return rounded_down(input.analysis.safety * least.bound);
   if (*input.analysis.time_step > least.bound)
     throw error_at(input, input.analysis.source,
@@ -150,6 +186,7 @@ Built build(const Case& input) {
   set_initial_motion(sim.model, input, selector);
   built.probes = make_probes(input, selector, sim);
   sim.reactions = coupling::Reactions(sim.model);
+  sim.contacts = contact::Contacts(sim.model, make_contact_laws(sim.model, input));
   built.bounds = time_step_bounds(sim.model, sim.contacts);
   sim.dt = choose_time_step(input, built.bounds);
   sim.alpha = input.analysis.damping;

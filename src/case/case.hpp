@@ -61,6 +61,17 @@ struct Where {
   Source source;
 };
 
+/// How the bodies of a pair of regions act on each other where they touch.
+struct ContactSpec {
+  /// Two regions, or the same one twice; none: any two different ones.
+  struct Between {
+    std::optional<std::array<std::string, 2>> regions;
+  } between;
+  std::string law;  ///< "penalty", "hertz"
+  double stiffness_factor, restitution, friction;
+  Source source;
+};
+
 struct SupportSpec {
   Where where;
   std::array<bool, 6> fixed{};                        ///< x y z rx ry rz
@@ -88,7 +99,7 @@ struct InitialSpec {
 struct ProbeSpec {
   std::string name;
   Where where;
-  std::string quantity;            ///< "displacement", "velocity", "rotation", "reaction"
+  std::string quantity;            ///< "displacement", "velocity", "rotation", "reaction", "contact-force"
   std::string component;           ///< "x", "y", "z", "magnitude"
   std::string reduce;              ///< "mean", "min", "max", "sum"
   std::optional<double> expected;  ///< shown beside the final value
@@ -122,6 +133,7 @@ struct Case {
   std::string coupling = "ghost-particles";  ///< or "none"
   std::string rotation = "one-step-back";    ///< or "none"
   Source coupling_source;
+  std::vector<ContactSpec> contact;
   std::map<std::string, Curve> curves;
   std::vector<SupportSpec> supports;
   std::vector<LoadSpec> loads;

@@ -94,7 +94,9 @@ class Checker {
         table(*list.get(i)->as_table(), table_of(key.of), fmt::format("{}.{}", path, i));
     }
     if (key.type == Type::named) named(key, *node.as_table(), path);
-    if (key.type == Type::reference) reference(key, node);
+    if (key.type == Type::reference) reference(key, key.name, node);
+    if (key.type == Type::pair && node.is_array())
+      for (const toml::node& name : *node.as_array()) reference(key, "region", name);
   }
 
   void wrong(const Key& key, const toml::node& node) {
@@ -126,14 +128,15 @@ class Checker {
     }
   }
 
-  void reference(const Key& key, const toml::node& node) {
+  /// The name of a thing of this kind.
+  void reference(const Key& key, std::string_view kind, const toml::node& node) {
     const std::string name = *convert<std::string>(node);
     std::vector<std::string> known;
     if (const toml::table* named = document_.root[key.of].as_table())
       for (const auto& entry : *named) known.emplace_back(entry.first.str());
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     const std::string none = known.empty() ? fmt::format("; there are no {}", key.of) : "";
-    document_.report(node.source(), fmt::format("unknown {} '{}'{}{}", key.name, printable(name, 60),
+    document_.report(node.source(), fmt::format("unknown {} '{}'{}{}", kind, printable(name, 60),
                                                 did_you_mean(name, known), none));
   }
 

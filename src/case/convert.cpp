@@ -71,4 +71,12 @@ std::optional<Curve> convert<Curve>(const toml::node& node) {
   return curve;
 }
 
+template <>
+std::optional<ContactSpec::Between> convert<ContactSpec::Between>(const toml::node& node) {
+  if (convert<std::string>(node) == "all") return ContactSpec::Between{};
+  const auto names = convert_array<std::string, 2>(node);
+  if (!names) return {};
+  return ContactSpec::Between{names};
+}
+
 }  // namespace geist

@@ -35,6 +35,10 @@ std::optional<Where::Interval> convert<Where::Interval>(const toml::node& node);
 template <>
 std::optional<Curve> convert<Curve>(const toml::node& node);
 
+/// "all" or two names.
+template <>
+std::optional<ContactSpec::Between> convert<ContactSpec::Between>(const toml::node& node);
+
 /// A list of exactly N.
 template <class T, std::size_t N>
 std::optional<std::array<T, N>> convert_array(const toml::node& node) {

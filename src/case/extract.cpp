@@ -99,6 +99,15 @@ std::array<std::optional<double>, 6> components_of(const std::optional<View>& vi
   return values;
 }
 
+ContactSpec contact_of(const View& view) {
+  return {view.get<ContactSpec::Between>("between").value(),
+          word(view, "law"),
+          view.get<double>("stiffness_factor").value(),
+          view.get<double>("restitution").value(),
+          view.get<double>("friction").value(),
+          view.source()};
+}
+
 SupportSpec support_of(const View& view) {
   SupportSpec spec;
   spec.where = where_of(view.table("where").value());
@@ -192,6 +201,7 @@ Case extract(const Document& document) {
   result.coupling = word(coupling, "type");
   result.rotation = word(coupling, "rotation");
   result.coupling_source = coupling.source();
+  for (const View& view : root.tables("contact")) result.contact.push_back(contact_of(view));
   for (const View& view : root.named("curves"))
     result.curves[view.name()] = view.get<Curve>("points").value();
   for (const View& view : root.tables("supports")) result.supports.push_back(support_of(view));

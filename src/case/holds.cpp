@@ -84,6 +84,8 @@ bool acceptable(const Key& key, const toml::node& node) {
     case Type::text:
     case Type::reference:
       return node.is_string();
+    case Type::pair:
+      return convert<ContactSpec::Between>(node).has_value();
     case Type::boolean:
       return node.is_boolean();
     case Type::number:

@@ -27,6 +27,7 @@ Table root() {
        within(Type::named, "regions", "regions.*", "The bodies: hexahedra and lattices of particles.")
            .required(),
        within(Type::table, "coupling", "coupling", "How hexahedra and particles are tied.").otherwise("{}"),
+       within(Type::tables, "contact", "contact[]", "Which bodies act on each other where they touch."),
        within(Type::named, "curves", "curves.*", "Functions of time, for supports and loads."),
        within(Type::tables, "supports", "supports[]", "Where the motion is prescribed."),
        within(Type::tables, "loads", "loads[]", "Where forces act."),
@@ -218,12 +219,29 @@ Table curves() {
 }  // namespace
 
 const std::vector<Table>& key_table() {
-  static const std::vector<Table> tables{
-      root(),           units(),       materials(),     regions(),        cut(),
-      grading(),        graded(),      shape(),         cylinder(),       ball(),
-      coupling(),       curves(),      where_table(),   supports_table(), displacement_table(),
-      velocity_table(), loads_table(), initial_table(), analysis_table(), probes_table(),
-      output_table(),   every_table()};
+  static const std::vector<Table> tables{root(),
+                                         units(),
+                                         materials(),
+                                         regions(),
+                                         cut(),
+                                         grading(),
+                                         graded(),
+                                         shape(),
+                                         cylinder(),
+                                         ball(),
+                                         coupling(),
+                                         contact_table(),
+                                         curves(),
+                                         where_table(),
+                                         supports_table(),
+                                         displacement_table(),
+                                         velocity_table(),
+                                         loads_table(),
+                                         initial_table(),
+                                         analysis_table(),
+                                         probes_table(),
+                                         output_table(),
+                                         every_table()};
   return tables;
 }
 

@@ -30,6 +30,7 @@ inline Key within(Type type, std::string_view name, std::string_view of, std::st
 
 }  // namespace key_builders
 
+Table contact_table();
 Table where_table();
 Table supports_table();
 Table displacement_table();

@@ -1,4 +1,4 @@
-// The key table's data, second part: supports, loads, the analysis, probes and output.
+// The key table's data, second part: contact, supports, loads, the analysis, probes and output.
 #include "case/key_table.hpp"
 
 namespace geist {
@@ -24,6 +24,34 @@ std::vector<Key> components(std::string_view along, std::string_view about) {
 }
 
 }  // namespace
+
+Table contact_table() {
+  return {
+      "contact[]",
+      "[[contact]]",
+      "Contact between bodies: without it they pass through each other. Stiffnesses come from the materials. "
+      "A "
+      "pair that is named outdoes \"all\". Regions of a named pair may touch or leave any gap: blocks of "
+      "hexahedra share no nodes then, and need no matching divisions. Only a lattice that lies flush on "
+      "hexahedra is bonded to them by ghosts as ever (unless the coupling's type is none).",
+      {within(Type::pair, "between", "regions",
+              "The two regions; the same one twice for contact with itself; or \"all\" for any two different "
+              "ones.")
+           .required(),
+       choice("law", {"penalty", "hertz"},
+              "Normal force: linear in the overlap (penalty), or Hertz' law of spheres, for pairs with "
+              "particles; "
+              "hexahedra deform by themselves, so where \"all\" means two of them it stands for penalty.")
+           .otherwise("\"penalty\""),
+       number("stiffness_factor", "-", "Multiplies the stiffness that the materials give.")
+           .above(0)
+           .otherwise("1"),
+       number("restitution", "-",
+              "Speed after / speed before a central collision of two particles; less than 1 adds damping.")
+           .range_is({0.01, 1})
+           .otherwise("1"),
+       number("friction", "-", "Coulomb's coefficient.").at_least(0).otherwise("0")}};
+}
 
 Table where_table() {
   return {
@@ -133,27 +161,31 @@ Table analysis_table() {
 }
 
 Table probes_table() {
-  constexpr Condition reaction{"quantity", "reaction"}, no_reaction{"quantity", "reaction", true};
+  constexpr Condition reaction{"quantity", "reaction"}, contact_force{"quantity", "contact-force"};
   const std::vector<std::string_view> ways{"mean", "min", "max", "sum"};
-  return {"probes.*",
-          "[probes.NAME]",
-          "One number over time, from all nodes and particles of a selection.",
-          {where("The nodes and particles looked at.").required(),
-           choice("quantity", {"displacement", "velocity", "rotation", "reaction"},
-                  "What is looked at; only particles have a rotation, only supports a reaction.")
-               .required(),
-           choice("component", {"x", "y", "z", "magnitude"},
-                  "A component, or the magnitude of each vector (of a reaction: of the sum).")
-               .required(),
-           choice("reduce", ways, "How the selection's values become one.")
-               .otherwise("\"mean\"")
-               .when(no_reaction),
-           choice("reduce", {"sum"}, "A reaction is that of all supports in the selection together.")
-               .otherwise("\"sum\"")
-               .when(reaction),
-           number("expected", "that of the quantity",
-                  "A value to show the final one beside, with the difference."),
-           text("expected_from", "Where the expected value comes from.").when({"expected", {}})}};
+  return {
+      "probes.*",
+      "[probes.NAME]",
+      "One number over time, from all nodes and particles of a selection.",
+      {where("The nodes and particles looked at.").required(),
+       choice("quantity", {"displacement", "velocity", "rotation", "reaction", "contact-force"},
+              "What is looked at; only particles have a rotation, only supports a reaction; a "
+              "contact-force needs [[contact]].")
+           .required(),
+       choice("component", {"x", "y", "z", "magnitude"},
+              "A component, or the magnitude of each vector (of a reaction or contact-force: of the sum).")
+           .required(),
+       choice("reduce", {"sum"}, "A reaction is that of all supports in the selection together.")
+           .otherwise("\"sum\"")
+           .when(reaction),
+       choice("reduce", {"sum"}, "A contact-force is that on the whole selection.")
+           .otherwise("\"sum\"")
+           .when(contact_force),
+       choice("reduce", ways, "Of other quantities: how the selection's values become one.")
+           .otherwise("\"mean\""),
+       number("expected", "that of the quantity",
+              "A value to show the final one beside, with the difference."),
+       text("expected_from", "Where the expected value comes from.").when({"expected", {}})}};
 }
 
 Table output_table() {

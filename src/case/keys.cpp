@@ -71,6 +71,8 @@ std::string words(const Key& key) {
       return "text in quotes";
     case Type::reference:
       return fmt::format("the name of one of [{}] in quotes", key.of);
+    case Type::pair:
+      return fmt::format("\"all\" or two names of [{}] in a list [\"a\", \"b\"]", key.of);
     case Type::boolean:
       return "true or false";
     case Type::number:

@@ -14,6 +14,7 @@ namespace geist {
 enum class Type {
   text,       ///< any string
   reference,  ///< the name of an entry of the root table `of`
+  pair,       ///< two of these names, which may be the same; or "all"
   boolean,    ///< true or false
   number,     ///< finite; a whole number is welcome
   integer,    ///< whole number
@@ -101,7 +102,8 @@ const std::vector<Table>& key_table();
 /// The table of this name; std::logic_error if there is none.
 const Table& table_of(std::string_view name);
 
-/// All entries for a key of a table (several if its meaning depends on another key); std::logic_error if
+/// All entries for a key of a table (several if its meaning depends on another key: the first that may be
+/// given counts); std::logic_error if
 /// none.
 std::vector<const Key*> keys_named(const Table& table, std::string_view name);
 

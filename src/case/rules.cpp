@@ -88,6 +88,7 @@ void check_rules(Document& document) {
     if (type == "lattice") check_lattice(document, region);
     if (type == "hexahedra") check_hexahedra(document, region);
   }
+  check_contact(document, root);
   check_supports(document, root);
   check_quasi_static(document, root);
 }

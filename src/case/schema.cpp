@@ -55,6 +55,8 @@ Json shape_of(const Key& key) {
     case Type::text:
     case Type::reference:
       return {{"type", "string"}};
+    case Type::pair:
+      return {{"anyOf", {Json{{"const", "all"}}, list({{"type", "string"}}, 2, 2)}}};
     case Type::boolean:
       return {{"type", "boolean"}};
     case Type::number:

@@ -17,8 +17,10 @@
 namespace geist::coupling {
 
 /// Make every empty site within a bond's reach of a particle that lies inside a hexahedron a ghost of
-/// `lattice`. The grid must have a layer of empty sites around the particles.
-void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator);
+/// `lattice`, but for those in regions that are loose (by region of the mesh; none if the list is empty). The
+/// grid must have a layer of empty sites around the particles.
+void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator,
+                  const std::vector<bool>& loose = {});
 
 /// Displacement of all ghosts from that of the nodes.
 void follow(Lattice& lattice, const Mesh& mesh);

@@ -7,7 +7,7 @@ namespace {
 
 using L = const Ledger&;
 namespace dim = dimension;
-constexpr std::size_t energies = 10;
+constexpr std::size_t energies = 13;
 
 // clang-format off
 constexpr LedgerEntry list[] = {
@@ -17,7 +17,10 @@ constexpr LedgerEntry list[] = {
     {"strain_bonds",        dim::energy, [](L l) { return l.strain_bonds; }},
     {"strain_coupling",     dim::energy, [](L l) { return l.strain_coupling; }},
     {"hourglass",           dim::energy, [](L l) { return l.hourglass; }},
+    {"contact",             dim::energy, [](L l) { return l.contact; }},
     {"damping",             dim::energy, [](L l) { return l.damping; }},
+    {"friction",            dim::energy, [](L l) { return l.friction; }},
+    {"contact_damping",     dim::energy, [](L l) { return l.contact_damping; }},
     {"external",            dim::energy, [](L l) { return l.external; }},
     {"initial",             dim::energy, [](L l) { return l.initial; }},
     {"balance",             dim::energy, [](L l) { return l.balance(); }},
@@ -36,6 +39,8 @@ static_assert(list[energies - 1].name == "balance");
 std::span<const LedgerEntry> ledger_entries() { return list; }
 std::span<const LedgerEntry> energy_entries() { return ledger_entries().first(energies); }
 
-double total_energy(const Ledger& ledger) { return ledger.kinetic() + ledger.internal() + ledger.damping; }
+double total_energy(const Ledger& ledger) {
+  return ledger.kinetic() + ledger.internal() + ledger.dissipated();
+}
 
 }  // namespace geist::output

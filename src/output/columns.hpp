@@ -32,7 +32,7 @@ std::span<const LedgerEntry> ledger_entries();
 /// Those of them that are energies.
 std::span<const LedgerEntry> energy_entries();
 
-/// Sum of the energies that are there and those taken out by damping, what the balance is compared with.
+/// Sum of the energies that are there and those dissipated, what the balance is compared with.
 double total_energy(const Ledger& ledger);
 
 }  // namespace geist::output

@@ -2,6 +2,7 @@
 // What is kept for a checkpoint is the state itself, at n + 1/2.
 #include "output/field_list.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -132,6 +133,30 @@ Values node_velocities(const Model& model) {
   return mean(node_vectors(model.mesh.v_before), node_velocities_after(model));
 }
 
+Values node_contact_forces(const Simulation& sim) {
+  Values values(3 * sim.model.mesh.nodes());
+  for (const contact::TouchedPlace& touched : sim.contacts.touched())
+    if (touched.place.lattice < 0)
+      for (int c = 0; c < 3; ++c) values[3 * touched.place.index + c] = touched.force[c];
+  return values;
+}
+
+/// Touched places come in the order of lattices and sites, too, after the nodes.
+Values particle_contact_forces(const Simulation& sim) {
+  const std::vector<contact::TouchedPlace>& touched = sim.contacts.touched();
+  auto next =
+      std::find_if(touched.begin(), touched.end(), [](const auto& t) { return t.place.lattice >= 0; });
+  Values values;
+  visit_sites(sim.model, site::particle, [&](const Lattice&, std::size_t l, std::size_t s) {
+    Vec3 force;
+    const bool here = next != touched.end() && next->place.lattice == static_cast<std::int32_t>(l) &&
+                      next->place.index == s;
+    if (here) force = (next++)->force;
+    for (int c = 0; c < 3; ++c) values.push_back(force[c]);
+  });
+  return values;
+}
+
 using enum Place;
 using enum Storage;
 namespace dim = dimension;
@@ -144,6 +169,7 @@ constexpr FieldInfo list[] = {
     {"displacement",     nodes,     3, dim::length,       full,    yes, yes, node_displacements},
     {"velocity",         nodes,     3, dim::velocity,     single,  yes, no,  node_velocities},
     {"velocity_after",   nodes,     3, dim::velocity,     full,    no,  yes, node_velocities_after},
+    {"contact_force",    nodes,     3, dim::force,        single,  yes, no,  node_contact_forces},
 
     {"stress",           hexahedra, 6, dim::stress,       single,  yes, no,  stresses},
     {"von_mises",        hexahedra, 1, dim::stress,       single,  yes, no,  von_mises_stresses},
@@ -158,6 +184,7 @@ constexpr FieldInfo list[] = {
     {"radius",           particles, 1, dim::length,       full,    yes, no,  radii<p>},
     {"strain_energy",    particles, 1, dim::energy,       single,  yes, no,  strain_energies},
     {"intact_bonds",     particles, 1, dim::none,         integer, yes, no,  intact_bonds},
+    {"contact_force",    particles, 3, dim::force,        single,  yes, no,  particle_contact_forces},
     {"region",           particles, 1, dim::none,         integer, yes, no,  lattice_regions<p>},
 
     {"displacement",     ghosts,    3, dim::length,       full,    yes, no,  motion<g, 0>},

@@ -30,9 +30,9 @@ std::vector<T> convert(const std::vector<double>& values) {
   return converted;
 }
 
-DataArray make_array(const FieldInfo& field, const Model& model, const UnitSystem& units) {
+DataArray make_array(const FieldInfo& field, const Simulation& sim, const UnitSystem& units) {
   const bool has_unit = field.dimension != dimension::none;
-  DataArray array{std::string(field.name), field.components, field.values(model),
+  DataArray array{std::string(field.name), field.components, field.values(sim),
                   has_unit ? units.label(field.dimension) : "", component_names(field)};
   const auto& values = std::get<std::vector<double>>(array.values);
   if (field.storage == Storage::single) array.values = convert<float>(values);
@@ -40,10 +40,10 @@ DataArray make_array(const FieldInfo& field, const Model& model, const UnitSyste
   return array;
 }
 
-std::vector<DataArray> shown_fields(Place place, const Model& model, const UnitSystem& units) {
+std::vector<DataArray> shown_fields(Place place, const Simulation& sim, const UnitSystem& units) {
   std::vector<DataArray> arrays;
   for (const FieldInfo& field : fields())
-    if (field.place == place && field.shown) arrays.push_back(make_array(field, model, units));
+    if (field.place == place && field.shown) arrays.push_back(make_array(field, sim, units));
   return arrays;
 }
 
@@ -85,14 +85,15 @@ FieldWriter::FieldWriter(std::filesystem::path directory, UnitSystem units, bool
   make_directory(directory_ / fields_folder);
 }
 
-void FieldWriter::write(const Model& model) {
+void FieldWriter::write(const Simulation& sim) {
+  const Model& model = sim.model;
   std::erase_if(entries_, [&](const Entry& entry) { return entry.step == model.step; });
   int number = 0;
   for (const Part& part : parts) {
     UnstructuredGrid grid = geometry(part, model);
     if (grid.connectivity.empty()) continue;
-    grid.point_data = shown_fields(part.points, model, units_);
-    if (part.cells) grid.cell_data = shown_fields(*part.cells, model, units_);
+    grid.point_data = shown_fields(part.points, sim, units_);
+    if (part.cells) grid.cell_data = shown_fields(*part.cells, sim, units_);
     const std::string file = fmt::format("{}/{}_{:06}.vtu", fields_folder, part.name, model.step);
     write_vtu(directory_ / file, std::move(grid), compress_);
     entries_.push_back({model.step, model.time, number++, part.name, file});

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
 #include "output/units.hpp"
+#include "solver/simulation.hpp"
 
 namespace geist::output {
 
@@ -17,9 +17,9 @@ class FieldWriter {
  public:
   FieldWriter(std::filesystem::path directory, UnitSystem units, bool compress = true);
 
-  /// Write the model as it is now (an observed step). A step that was the last one written is replaced.
+  /// Write the simulation as it is now (an observed step). A step that was the last one written is replaced.
   /// Throws std::runtime_error naming the file and the reason; files written before stay valid.
-  void write(const Model& model);
+  void write(const Simulation& sim);
 
  private:
   struct Entry {

@@ -105,6 +105,7 @@ nlohmann::ordered_json to_json(const RunSummary& s) {
       {"title", s.title},
       {"status", s.status},
       {"message", s.message},
+      {"warnings", s.warnings},
       {"probes", probes_json(s)},
       {"expected", expected_json(s)},
       {"units", units_json(s)},

@@ -40,6 +40,7 @@ struct RunSummary {
   std::string title;
   std::string status;   ///< "completed", "not converged", "interrupted" or "failed"
   std::string message;  ///< a sentence where the status needs one
+  std::vector<std::string> warnings;
   UnitSystem units{"m", "kg", "s"};
   std::vector<ProbeValue> probes;
   Ledger ledger;

@@ -48,6 +48,7 @@ output::Dimension dimension_of(const Probe& probe) {
     case Probe::Quantity::rotation:
       return output::dimension::angle;
     case Probe::Quantity::reaction:
+    case Probe::Quantity::contact_force:
       return output::dimension::force;
   }
   return output::dimension::none;
@@ -79,7 +80,7 @@ class Recorder : public Observer {
     history_.write({sim.model.step, sim.model.time, std::move(values), now.ledger, now.residual});
   }
 
-  void fields(const Simulation& sim, const Observation&) override { fields_.write(sim.model); }
+  void fields(const Simulation& sim, const Observation&) override { fields_.write(sim); }
 
   void progress(const Simulation& sim, const Observation& now) override {
     const bool dynamic = input_.analysis.type == "dynamic";
@@ -94,7 +95,14 @@ class Recorder : public Observer {
     progress_.show(report);
   }
 
+  void warning(const Simulation&, const std::string& message) override {
+    warnings_.push_back(message);
+    progress_.finish();
+    output::print(stderr, fmt::format("geist: warning: {}\n", message));
+  }
+
   void finish() { progress_.finish(); }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   const Case& input_;
@@ -102,6 +110,7 @@ class Recorder : public Observer {
   output::History history_;
   output::FieldWriter fields_;
   output::Progress progress_;
+  std::vector<std::string> warnings_;
 };
 
 RunPlan plan_of(const Case& input, const ExecuteOptions& options) {
@@ -219,6 +228,7 @@ int execute(const Case& input, const ExecuteOptions& options) {
   const RunPlan plan = plan_of(input, options);
   const double begin = output::Progress::wall_clock();
   Outcome outcome;
+  std::vector<std::string> warnings;
   {
     Recorder recorder(input, options, built.probes);
     try {
@@ -229,8 +239,10 @@ int execute(const Case& input, const ExecuteOptions& options) {
                                     built.simulation.model.time, e.what());
     }
     recorder.finish();
+    warnings = recorder.warnings();
   }
-  const auto summary = summarise(input, options, built, outcome, output::Progress::wall_clock() - begin);
+  auto summary = summarise(input, options, built, outcome, output::Progress::wall_clock() - begin);
+  summary.warnings = std::move(warnings);
   output::write_summary(options.directory / output::summary_name, summary);
   if (!outcome.message.empty())
     output::print(stderr, fmt::format("geist: {}: {}\n", summary.status, outcome.message));

@@ -28,10 +28,26 @@ double reaction(const Probe& probe, const Simulation& sim) {
   return component_of(total, probe.component);
 }
 
+/// Resultant of the contact forces on the selection; nodes and particles are in ascending order.
+double contact_force(const Probe& probe, const Simulation& sim) {
+  const auto selected = [&](const contact::Place& place) {
+    if (place.lattice < 0)
+      return std::binary_search(probe.nodes.begin(), probe.nodes.end(),
+                                static_cast<std::int32_t>(place.index));
+    return std::binary_search(probe.particles.begin(), probe.particles.end(),
+                              ParticleId{place.lattice, place.index});
+  };
+  Vec3 total;
+  for (const contact::TouchedPlace& touched : sim.contacts.touched())
+    if (selected(touched.place)) total += touched.force;
+  return component_of(total, probe.component);
+}
+
 }  // namespace
 
 double Probe::value(const Simulation& sim) const {
   if (quantity == Quantity::reaction) return reaction(*this, sim);
+  if (quantity == Quantity::contact_force) return contact_force(*this, sim);
   double sum = 0, low = std::numeric_limits<double>::infinity(), high = -low;
   const auto take = [&](Vec3 a) {
     const double x = component_of(a, component);

@@ -1,5 +1,6 @@
 // Probes: single numbers read off a simulation.
 #pragma once
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -13,21 +14,22 @@ namespace geist {
 struct ParticleId {
   std::int32_t lattice;
   std::size_t site;
+  friend auto operator<=>(const ParticleId&, const ParticleId&) = default;
 };
 
 struct Probe {
-  enum class Quantity { displacement, velocity, rotation, reaction };
+  enum class Quantity { displacement, velocity, rotation, reaction, contact_force };
   enum class Reduce { mean, min, max, sum };
 
   std::string name;
   Quantity quantity = Quantity::displacement;
   int component = 0;  ///< 0–2; 3 is the magnitude
   Reduce reduce = Reduce::mean;
-  std::vector<std::int32_t> nodes;
-  std::vector<ParticleId> particles;
-  std::vector<std::size_t> held;  ///< indices into Supports::held, for reactions
+  std::vector<std::int32_t> nodes;    ///< ascending
+  std::vector<ParticleId> particles;  ///< ascending
+  std::vector<std::size_t> held;      ///< indices into Supports::held, for reactions
 
-  /// Value at t^n of an observed step. A reaction is the sum over the selection.
+  /// Value at t^n of an observed step. Reactions and contact forces are sums over the selection.
   double value(const Simulation& sim) const;
 };
 

@@ -60,6 +60,27 @@ std::string first_place(const Model& model, Node node_is_it, Site site_is_it) {
   return {};
 }
 
+/// Regions are numbered hexahedra first, then lattices.
+std::string region_name(const Model& model, std::int32_t region) {
+  const auto r = static_cast<std::size_t>(region), hexahedral = model.mesh.regions.size();
+  return r < hexahedral ? model.mesh.regions[r].name : model.lattices[r - hexahedral].name;
+}
+
+std::string describe(const Model& model, const contact::DeepContact& deep) {
+  std::string place = fmt::format("node {}", deep.place.index);
+  if (deep.place.lattice >= 0) {
+    const auto [i, j, k] = model.lattices[deep.place.lattice].grid.ijk(deep.place.index);
+    place = fmt::format("site ({}, {}, {})", i, j, k);
+  }
+  const Vec3 p = deep.position;
+  return fmt::format(
+      "step {}, time {:.6g}: region '{}', {} at ({:.6g}, {:.6g}, {:.6g}) is {:.3g} deep in region '{}'; "
+      "their "
+      "contact law is made for {:.3g} at most: raise stiffness_factor, or refine",
+      model.step, model.time, region_name(model, deep.region), place, p.x, p.y, p.z, deep.overlap,
+      region_name(model, deep.other), deep.allowed);
+}
+
 /// One run under way.
 class Runner {
  public:
@@ -73,6 +94,7 @@ class Runner {
 
   Outcome run() {
     sim_.start();
+    warn();
     observe();
     report_history(), report_fields();
     while (!finished()) advance();
@@ -95,12 +117,18 @@ class Runner {
     const bool history = history_.due(step), fields = fields_.due(step);
     const bool watch = history || fields || step % plan_.check_every == 0 || ends_at(step);
     sim_.step(watch);
+    warn();
     reported_history_ = reported_fields_ = false;
     if (!std::isfinite(sim_.kinetic_energy())) return fail_not_finite(watch);
     if (watch) observe();
     if (history) report_history();
     if (fields) report_fields();
     if (plan_.quasi_static) relaxation_.update(sim_);
+  }
+
+  void warn() {
+    for (const contact::DeepContact& deep : sim_.contacts.take_deep_contacts())
+      for (Observer* o : observers_) o->warning(sim_, describe(sim_.model, deep));
   }
 
   void observe() {
@@ -113,7 +141,8 @@ class Runner {
 
   void check_balance() {
     const Ledger& l = last_.ledger;
-    largest_ = std::max({largest_, l.kinetic() + l.internal() + std::abs(l.damping), std::abs(l.external)});
+    largest_ =
+        std::max({largest_, l.kinetic() + l.internal() + std::abs(l.dissipated()), std::abs(l.external)});
     if (sim_.model.step < plan_.check_every || std::abs(l.balance()) <= plan_.balance_tolerance * largest_)
       return;
     outcome_ = {

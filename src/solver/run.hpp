@@ -19,8 +19,10 @@ struct Observation {
 class Observer {
  public:
   virtual ~Observer() = default;
-  virtual void history(const Simulation&, const Observation&) {}   ///< a row of history is due
-  virtual void fields(const Simulation&, const Observation&) {}    ///< a picture of the fields is due
+  virtual void history(const Simulation&, const Observation&) {}  ///< a row of history is due
+  virtual void fields(const Simulation&, const Observation&) {}   ///< a picture of the fields is due
+  /// Something that the run survives and its user should know.
+  virtual void warning(const Simulation&, const std::string&) {}
   virtual void progress(const Simulation&, const Observation&) {}  ///< whenever the ledger was made
 };
 

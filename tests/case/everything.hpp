@@ -62,6 +62,16 @@ divisions = [2, 1, 5]
 type = "none"
 rotation = "none"
 
+[[contact]]
+between = "all"
+
+[[contact]]
+between = ["zebra", "ant"]
+law = "hertz"
+stiffness_factor = 0.5
+restitution = 0.9
+friction = 0.3
+
 [curves.ramp]
 points = [[0, 0], [1e-3, 1], [2e-3, 1.5]]
 
@@ -114,6 +124,11 @@ component = "magnitude"
 reduce = "max"
 expected = 2.5
 expected_from = "closed form"
+
+[probes.push]
+where = { region = "ant" }
+quantity = "contact-force"
+component = "x"
 
 [output]
 fields = { every = 1e-3 }

@@ -52,8 +52,8 @@ history = { every = 0.1 }
 
 std::vector<Malformed> malformed_cases() {
   std::vector<Malformed> all;
-  for (const auto& part :
-       {malformed_syntax(), malformed_keys(), malformed_values(), malformed_rules(), malformed_sets()})
+  for (const auto& part : {malformed_syntax(), malformed_keys(), malformed_values(), malformed_contacts(),
+                           malformed_rules(), malformed_sets()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -28,6 +28,7 @@ extern const char* const good_case;
 std::span<const Malformed> malformed_syntax();
 std::span<const Malformed> malformed_keys();
 std::span<const Malformed> malformed_values();
+std::span<const Malformed> malformed_contacts();
 std::span<const Malformed> malformed_rules();
 std::span<const Malformed> malformed_sets();
 

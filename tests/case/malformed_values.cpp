@@ -173,6 +173,70 @@ constexpr Malformed values[] = {
      {"'history' must be a table { every = … }, not 0.1"}},
 };
 
+constexpr Malformed contacts[] = {
+    {"ContactBetweenText",
+     "[analysis]",
+     "[[contact]]\nbetween = \"left\"\n[analysis]",
+     34,
+     11,
+     {"'between' must be \"all\" or two names of [regions] in a list [\"a\", \"b\"], not \"left\""}},
+    {"ContactBetweenOne",
+     "[analysis]",
+     "[[contact]]\nbetween = [\"left\"]\n[analysis]",
+     34,
+     11,
+     {"'between' must be \"all\" or two names"}},
+    {"ContactBetweenNothing",
+     "[analysis]",
+     "[[contact]]\nfriction = 0.3\n[analysis]",
+     33,
+     1,
+     {"'contact.0' needs 'between'"}},
+    {"ContactOfUnknownRegion",
+     "[analysis]",
+     "[[contact]]\nbetween = [\"left\", \"midle\"]\n[analysis]",
+     34,
+     20,
+     {"unknown region 'midle'; did you mean 'middle'?"}},
+    {"ContactTwice",
+     "[analysis]",
+     "[[contact]]\nbetween = [\"left\", \"middle\"]\n[[contact]]\nbetween = [\"middle\", "
+     "\"left\"]\n[analysis]",
+     36,
+     11,
+     {"contact between 'middle' and 'left' is declared already, in line 34"}},
+    {"HertzBetweenHexahedra",
+     "[analysis]",
+     "[[contact]]\nbetween = [\"left\", \"left\"]\nlaw = \"hertz\"\n[analysis]",
+     35,
+     7,
+     {"'law' = \"hertz\" is for pairs with particles", "those of 'left' are hexahedra"}},
+    {"UnknownContactLaw",
+     "[analysis]",
+     "[[contact]]\nbetween = \"all\"\nlaw = \"herz\"\n[analysis]",
+     35,
+     7,
+     {"'law' must be \"penalty\" or \"hertz\", not \"herz\"; did you mean \"hertz\"?"}},
+    {"RestitutionAboveOne",
+     "[analysis]",
+     "[[contact]]\nbetween = \"all\"\nrestitution = 1.2\n[analysis]",
+     35,
+     15,
+     {"'restitution' must be a number in [0.01, 1], not 1.2"}},
+    {"NegativeFriction",
+     "[analysis]",
+     "[[contact]]\nbetween = \"all\"\nfriction = -0.3\n[analysis]",
+     35,
+     12,
+     {"'friction' must be a number ≥ 0, not -0.3"}},
+    {"ContactForceWithoutContact",
+     "\"displacement\"",
+     "\"contact-force\"",
+     39,
+     12,
+     {"a \"contact-force\" needs at least one of [[contact]]"}},
+};
+
 constexpr Malformed rules[] = {
     {"UnknownMaterial",
      "\"polymer\"\nbox = [[2",
@@ -351,6 +415,7 @@ constexpr Malformed sets[] = {
 }  // namespace
 
 std::span<const Malformed> malformed_values() { return values; }
+std::span<const Malformed> malformed_contacts() { return contacts; }
 std::span<const Malformed> malformed_rules() { return rules; }
 std::span<const Malformed> malformed_sets() { return sets; }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <regex>
 #include <set>
@@ -19,8 +21,9 @@ using geist::testing::error_of;
 using geist::testing::FullDisk;
 using geist::testing::read_text;
 using geist::testing::read_vtu;
+using geist::testing::ReadArray;
 using geist::testing::Scratch;
-using geist::testing::small_model;
+using geist::testing::small_simulation;
 
 const UnitSystem units{"mm", "g", "ms"};
 
@@ -34,11 +37,11 @@ std::vector<std::string> listed_files(const std::filesystem::path& pvd) {
 }
 
 TEST(Fields, EveryFieldHasAsManyValuesAsItsPlace) {
-  const Model model = small_model();
+  const Simulation sim = small_simulation();
   const std::size_t places[] = {12, 2, 12, 4};  // nodes, hexahedra, particles, ghosts
   std::set<std::pair<Place, std::string_view>> names;
   for (const FieldInfo& field : fields()) {
-    EXPECT_EQ(field.values(model).size(), field.components * places[static_cast<int>(field.place)])
+    EXPECT_EQ(field.values(sim).size(), field.components * places[static_cast<int>(field.place)])
         << field.name;
     EXPECT_TRUE(field.shown || field.kept) << field.name;
     EXPECT_TRUE(names.emplace(field.place, field.name).second) << field.name << " is declared twice";
@@ -47,8 +50,9 @@ TEST(Fields, EveryFieldHasAsManyValuesAsItsPlace) {
 
 TEST(Fields, HexahedraShowMotionAndStress) {
   const Scratch scratch;
-  const Model model = small_model();
-  FieldWriter(scratch.path, units).write(model);
+  const Simulation sim = small_simulation();
+  const Model& model = sim.model;
+  FieldWriter(scratch.path, units).write(sim);
   auto read = read_vtu(scratch / "fields/hexahedra_000120.vtu");
   EXPECT_EQ(read.time, model.time);
   EXPECT_EQ(read.points, 12u);
@@ -70,9 +74,10 @@ TEST(Fields, HexahedraShowMotionAndStress) {
 
 TEST(Fields, ParticlesShowMotionAndEnergy) {
   const Scratch scratch;
-  const Model model = small_model();
+  const Simulation sim = small_simulation();
+  const Model& model = sim.model;
   const Lattice& lattice = model.lattices[0];
-  FieldWriter(scratch.path, units, false).write(model);
+  FieldWriter(scratch.path, units, false).write(sim);
   auto read = read_vtu(scratch / "fields/particles_000120.vtu");
   EXPECT_EQ(read.points, 12u);
   const std::size_t s = lattice.grid.index(2, 0, 0), p = 1;  // particles are sites 1, 2, 3 of each row
@@ -89,10 +94,41 @@ TEST(Fields, ParticlesShowMotionAndEnergy) {
   EXPECT_EQ(read.arrays["PointData/region"].values[p], 1);
 }
 
+/// Two bodies of the small model pressed into each other: forces at the places that touch, which add up to
+/// nothing.
+TEST(Fields, ContactForcesAreShown) {
+  const Scratch scratch;
+  Simulation sim = small_simulation();
+  Lattice& lattice = sim.model.lattices[0];
+  lattice.ghosts.clear();
+  for (std::uint32_t& word : lattice.word) word = word & site::particle ? site::particle | site::free : 0;
+  connect(lattice);
+  sim.model.mesh.mass.assign(sim.model.mesh.nodes(), 1.0);
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < sim.model.mesh.nodes(); ++i) sim.model.mesh.u[c][i] = c == 0 ? 0.05 : 0;
+  contact::LawTable laws(2);
+  laws.set(0, 1, {});
+  sim.contacts = contact::Contacts(sim.model, laws);
+  sim.contacts.find(sim.model, 0);
+  FieldWriter(scratch.path, units).write(sim);
+  double total = 0, most = 0;
+  for (const std::string part : {"hexahedra", "particles"}) {
+    auto read = read_vtu(scratch / ("fields/" + part + "_000120.vtu"));
+    const ReadArray& forces = read.arrays["PointData/contact_force"];
+    EXPECT_EQ(forces.components, 3);
+    EXPECT_EQ(forces.unit, "N");
+    for (std::size_t i = 0; i < forces.values.size(); i += 3)
+      total += forces.values[i], most = std::max(most, std::abs(forces.values[i]));
+  }
+  EXPECT_GT(most, 0.01);
+  EXPECT_NEAR(total, 0, 1e-6 * most);
+}
+
 TEST(Fields, GhostsShowTheirHexahedron) {
   const Scratch scratch;
-  const Model model = small_model();
-  FieldWriter(scratch.path, units).write(model);
+  const Simulation sim = small_simulation();
+  const Model& model = sim.model;
+  FieldWriter(scratch.path, units).write(sim);
   auto read = read_vtu(scratch / "fields/ghosts_000120.vtu");
   EXPECT_EQ(read.points, 4u);
   EXPECT_EQ(read.arrays["PointData/hexahedron"].values, std::vector<double>(4, 1));
@@ -104,13 +140,14 @@ TEST(Fields, GhostsShowTheirHexahedron) {
 
 TEST(Fields, CollectionListsEveryFileOnce) {
   const Scratch scratch;
-  Model model = small_model();
+  Simulation sim = small_simulation();
+  Model& model = sim.model;
   FieldWriter writer(scratch.path, units);
   model.step = 0, model.time = 0;
-  writer.write(model);
+  writer.write(sim);
   model.step = 7, model.time = 0.1;
-  writer.write(model);
-  writer.write(model);
+  writer.write(sim);
+  writer.write(sim);
   EXPECT_EQ(
       listed_files(scratch / "fields.pvd"),
       (std::vector<std::string>{"0 0 fields/hexahedra_000000.vtu", "0 1 fields/particles_000000.vtu",
@@ -123,23 +160,25 @@ TEST(Fields, CollectionListsEveryFileOnce) {
 
 TEST(Fields, PartsThatDoNotExistAreLeftOut) {
   const Scratch scratch;
-  Model model = small_model();
+  Simulation sim = small_simulation();
+  Model& model = sim.model;
   model.lattices.clear();
-  FieldWriter(scratch.path, units).write(model);
+  FieldWriter(scratch.path, units).write(sim);
   EXPECT_EQ(listed_files(scratch / "fields.pvd"),
             std::vector<std::string>{"0.125 0 fields/hexahedra_000120.vtu"});
 }
 
 TEST(Fields, FullDiskKeepsWhatWasThere) {
   const Scratch scratch;
-  Model model = small_model();
+  Simulation sim = small_simulation();
+  Model& model = sim.model;
   FieldWriter writer(scratch.path, units);
-  writer.write(model);
+  writer.write(sim);
   const std::string before = read_text(scratch / "fields.pvd");
   model.step = 121;
   {
     const FullDisk full(64);
-    EXPECT_EQ(error_of([&] { writer.write(model); }),
+    EXPECT_EQ(error_of([&] { writer.write(sim); }),
               "cannot write " + (scratch / "fields/hexahedra_000121.vtu").string() + ": File too large");
   }
   EXPECT_EQ(read_text(scratch / "fields.pvd"), before);
@@ -159,7 +198,7 @@ TEST(Results, AreFoundAndRemovedAndNothingElse) {
   EXPECT_FALSE(holds_results(scratch.path));
   std::ofstream(scratch / "notes.txt") << "mine";
   EXPECT_FALSE(holds_results(scratch.path));
-  FieldWriter(scratch.path, units).write(small_model());
+  FieldWriter(scratch.path, units).write(small_simulation());
   write_whole(scratch / "summary.json", "{}");
   EXPECT_TRUE(holds_results(scratch.path));
   remove_results(scratch.path);

@@ -59,7 +59,8 @@ TEST(History, HeaderNamesEveryColumn) {
   History(scratch / "history.csv", probes);
   EXPECT_EQ(read_text(scratch / "history.csv"),
             "step,time,tip,reaction,kinetic_translation,kinetic_rotation,strain_elements,strain_bonds,"
-            "strain_coupling,hourglass,damping,external,initial,balance,momentum_x,momentum_y,momentum_z,"
+            "strain_coupling,hourglass,contact,damping,friction,contact_damping,external,initial,balance,"
+            "momentum_x,momentum_y,momentum_z,"
             "angular_momentum_x,angular_momentum_y,angular_momentum_z,residual\n");
 }
 
@@ -67,7 +68,8 @@ TEST(History, WhatDoesNotExistIsEmpty) {
   const Scratch scratch;
   History history(scratch / "history.csv", {});
   history.write({.step = 1, .time = 0.5, .probes = {}, .ledger = {}});
-  EXPECT_TRUE(read_text(scratch / "history.csv").ends_with("\n1,0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,\n"));
+  EXPECT_TRUE(
+      read_text(scratch / "history.csv").ends_with("\n1,0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,\n"));
 }
 
 TEST(History, AwkwardNamesAreQuotedAndClashesRefused) {

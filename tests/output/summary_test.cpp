@@ -19,6 +19,7 @@ RunSummary example() {
   s.units = {"mm", "g", "ms"};
   s.probes = {{"tip", dimension::length, -1.0 / 3}, {"missing", dimension::force}};
   s.ledger.strain_bonds = 2, s.ledger.external = 3, s.ledger.linear = {1, 2, 3};
+  s.ledger.friction = 0.25, s.warnings = {"deep"};
   s.counts = count(geist::testing::small_model());
   s.time_step = {1e-3, 1.1e-3, "region middle: bonds"};
   s.steps = 42, s.time = 0.5, s.threads = 4;
@@ -41,7 +42,10 @@ TEST(Summary, ReadsBack) {
   EXPECT_EQ(json["units"]["history"]["tip"], "mm");
   EXPECT_EQ(json["units"]["history"]["balance"], "mJ");
   EXPECT_EQ(json["units"]["fields"]["stress"], "MPa");
-  EXPECT_EQ(json["ledger"]["balance"], -1);
+  EXPECT_EQ(json["ledger"]["balance"], -0.75);
+  EXPECT_EQ(json["ledger"]["friction"], 0.25);
+  EXPECT_EQ(json["warnings"], nlohmann::json({"deep"}));
+  EXPECT_EQ(json["units"]["fields"]["contact_force"], "N");
   EXPECT_EQ(json["ledger"]["momentum_y"], 2);
   EXPECT_EQ(json["counts"]["particles"], 12);
   EXPECT_EQ(json["time_step"]["limited_by"], "region middle: bonds");

@@ -147,6 +147,12 @@ Model small_model() {
   return model;
 }
 
+Simulation small_simulation() {
+  Simulation sim;
+  sim.model = small_model();
+  return sim;
+}
+
 ReadGrid read_vtu(const fs::path& path) {
   const std::string text = read_text(path), mark = "<AppendedData encoding=\"raw\">\n_";
   const std::size_t data = text.find(mark);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "solver/simulation.hpp"
 
 namespace geist::testing {
 
@@ -45,6 +46,9 @@ class FullDisk {
 /// Two unit cubes in one region; beside them a lattice of 3 × 2 × 2 particles of pitch 1/2 with a layer of
 /// four ghosts in the second cube. All motion is a different number at every place.
 Model small_model();
+
+/// The same in a simulation, nothing acting on it.
+Simulation small_simulation();
 
 struct ReadArray {
   std::string type, unit;

@@ -42,7 +42,7 @@ TEST(Gravity, CoupledColumnIsBorneWhole) {
 /// gravity takes the latter.
 TEST(Gravity, SupportThatLiftsDoesTheWork) {
   const std::string lift = "[[supports]]\nwhere = { z = [0, 4] }\nvelocity = { x = 0, y = 0, z = 2 }\n";
-  Built built = build_text(column(lift + heavy + dynamic(0.5)));
+  Built built = build_text(column(lift + heavy + dynamic(0.5) + "time_step = 0.01\n"));
   const Outcome outcome = run(built.simulation, dynamic_plan(0.5), {});
   const double way = 2 * built.simulation.model.time, kinetic = 0.5 * weight / g * 4;
   EXPECT_NEAR(built.simulation.supports.work, kinetic + weight * way, 1e-9 * kinetic);
