@@ -211,19 +211,9 @@ class WayOut {
   bool solve(std::initializer_list<std::size_t> active) {
     const std::size_t n = active.size();
     index_.assign(active);
-    const auto& p = points_;
-    const auto c = [&](std::size_t a, std::size_t b) { return dot(p[index_[a]].n, p[index_[b]].n); };
-    const auto delta = [&](std::size_t a) { return p[index_[a]].overlap; };
-    if (n == 1) {
-      lambda_ = {delta(0), 0, 0};
-    } else {
-      const double s = n == 3 ? 1 : 0;  // a third equation that says λ_3 = 0
-      const Mat3 gram{{Vec3{1, c(0, 1), s ? c(0, 2) : 0}, Vec3{c(0, 1), 1, s ? c(1, 2) : 0},
-                       Vec3{s ? c(0, 2) : 0, s ? c(1, 2) : 0, 1}}};
-      if (det(gram) < 1e-9) return false;
-      const Vec3 solution = inverse(gram) * Vec3{delta(0), delta(1), s ? delta(2) : 0};
-      lambda_ = {solution.x, solution.y, solution.z};
-    }
+    if (n == 1) lambda_ = {point(0).overlap, 0, 0};
+    if (n == 2 && !solve_two()) return false;
+    if (n == 3 && !solve_three()) return false;
     for (std::size_t i = 0; i < n; ++i)
       if (!(lambda_[i] > 0)) return false;
     return leads_out(n);
@@ -246,6 +236,35 @@ class WayOut {
     void assign(std::initializer_list<std::size_t> list) { std::copy(list.begin(), list.end(), i.begin()); }
     std::size_t operator[](std::size_t k) const { return i[k]; }
   };
+
+  const TouchPoint& point(std::size_t i) const { return points_[index_[i]]; }
+
+  /// By differences of the normals, e = n_2 − n_1 (e·n_1 = −|e|²/2), so that nothing cancels where they are
+  /// nearly parallel.
+  bool solve_two() {
+    const Vec3 e = point(1).n - point(0).n;
+    const double along = -0.5 * dot(e, e), across = dot(e, e) - along * along;
+    if (across < 1e-9) return false;
+    const double delta = point(0).overlap;
+    const double t = (point(1).overlap - delta - delta * along) / across;
+    lambda_ = {delta - t * (1 + along), t, 0};
+    return true;
+  }
+
+  /// The same for three: d solves n_1·d = δ_1, e_2·d = δ_2 − δ_1, e_3·d = δ_3 − δ_1. Normals in one plane are
+  /// left to pairs, however near to each other they are.
+  bool solve_three() {
+    const Vec3 n = point(0).n, e2 = point(1).n - n, e3 = point(2).n - n;
+    const Vec3 a = cross(e2, e3), b = cross(e3, n), c = cross(n, e2);
+    const double volume = dot(n, a), pairs = dot(b, b) * dot(c, c) * dot(e3 - e2, e3 - e2);
+    if (volume * volume < 1e-9 * std::cbrt(pairs * pairs)) return false;
+    const double delta = point(0).overlap;
+    const Vec3 d =
+        (1 / volume) * (delta * a + (point(1).overlap - delta) * b + (point(2).overlap - delta) * c);
+    const double all = dot(d, a) / volume, second = dot(d, b) / volume, third = dot(d, c) / volume;
+    lambda_ = {all - second - third, second, third};
+    return true;
+  }
 
   bool leads_out(std::size_t n) const {
     Vec3 d;
