@@ -279,14 +279,23 @@ class WayOut {
   std::array<double, 3> lambda_{};
 };
 
-/// The deepest three push by themselves.
+/// The deepest three push by themselves, each direction once. Where they cancel, the overlap stays as much
+/// above zero as keeps λ / overlap finite.
 Touch pinched(std::span<const TouchPoint> points) {
+  std::array<TouchPoint, most_points> deepest;
+  std::copy(points.begin(), points.end(), deepest.begin());
+  std::stable_sort(deepest.begin(), deepest.begin() + static_cast<std::ptrdiff_t>(points.size()),
+                   [](const TouchPoint& a, const TouchPoint& b) { return a.overlap > b.overlap; });
   Touch t;
   Vec3 d;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, points.size()); ++i)
-    t.point[t.count++] = points[i], d += points[i].overlap * points[i].n;
-  t.overlap = norm(d);
-  t.normal = t.overlap > 0 ? (1 / t.overlap) * d : points[0].n;
+  for (std::size_t i = 0; i < points.size() && t.count < 3; ++i) {
+    const auto same = [&](const TouchPoint& q) { return norm(q.n - deepest[i].n) < 1e-6; };
+    if (std::any_of(t.point.begin(), t.point.begin() + t.count, same)) continue;
+    t.point[t.count++] = deepest[i], d += deepest[i].overlap * deepest[i].n;
+  }
+  const double least = 1e-9 * deepest[0].overlap;
+  t.overlap = std::max(norm(d), least);
+  t.normal = norm(d) > least ? (1 / norm(d)) * d : deepest[0].n;
   return t;
 }
 
