@@ -73,6 +73,7 @@ class Examiner {
     found.away_ = probe_.x - found.point.p;
     found.distance = norm(found.away());
     if (found.distance >= std::max(probe_.radius, probe_.reach)) return;
+    if (count_ == most_points && probe_.radius > 0) keep_minima();
     if (count_ < most_points) {
       found_[count_++] = found;
       return;
@@ -81,6 +82,14 @@ class Examiner {
         *std::max_element(found_.begin(), found_.end(),
                           [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
     if (found.distance < farthest.distance) farthest = found;
+  }
+
+  /// Where facets are small, most triangles that a sphere reaches carry nothing: only a flank that does
+  /// counts.
+  void keep_minima() {
+    const auto end = std::remove_if(found_.begin(), found_.begin() + count_,
+                                    [this](const Nearest& a) { return !local_minimum(a); });
+    count_ = static_cast<int>(end - found_.begin());
   }
 
   /// Whether no point of the surface beside this one is nearer, so that it is a contact of its own.
