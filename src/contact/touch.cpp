@@ -132,6 +132,20 @@ class Examiner {
     return true;
   }
 
+  /// Whether the surface ends here: what lies beyond is no deeper inside than anything else there.
+  bool on_border(const Nearest& a) const {
+    const SurfaceFacet& facet = surface_.facets[a.facet];
+    if (a.point.feature == Feature::edge_ab) return facet.across[a.k] < 0;
+    if (a.point.feature != Feature::corner_a && a.point.feature != Feature::corner_b) return false;
+    const std::int32_t node = facet.corner[(a.k + (a.point.feature == Feature::corner_b)) % 4];
+    const auto ends = [this](std::int32_t s) {
+      const SurfaceFacet& around = surface_.facets[s / 4];
+      return around.across[s % 4] < 0 || around.across[(s + 3) % 4] < 0;
+    };
+    return std::any_of(surface_.around.begin() + surface_.around_begin[node],
+                       surface_.around.begin() + surface_.around_begin[node + 1], ends);
+  }
+
   /// The surface's normal at a nearest point, which tells inside from outside.
   Vec3 normal_at(const Nearest& a) const {
     const SurfaceFacet& facet = surface_.facets[a.facet];
@@ -198,10 +212,11 @@ class Examiner {
     const double depth = -dot(a.away(), a.n);
     if (depth <= 0) return {};
     const Vec3 sideways = a.away() + depth * a.n;
+    if (a.point.feature == Feature::face) return single(make_point(a, a.n, depth));
+    if (local_minimum(a) && !on_border(a))
+      return single(make_point(a, (-1 / a.distance) * a.away(), a.distance));
     const bool on_plane = norm(sideways) <= beside * std::sqrt(surface_.facets[a.facet].area);
-    if (a.point.feature == Feature::face || on_plane) return single(make_point(a, a.n, depth));
-    if (!local_minimum(a)) return {};
-    return single(make_point(a, (-1 / a.distance) * a.away(), a.distance));
+    return on_plane ? single(make_point(a, a.n, depth)) : Touch{};
   }
 
   const Surface& surface_;
