@@ -56,16 +56,23 @@ class Examiner {
     const SurfaceFacet& facet = surface_.facets[f];
     for (const std::int32_t corner : facet.corner)
       if (corner == probe_.node) return;
+    const double reach = own_body(facet) ? std::min(probe_.reach, facet.depth) : probe_.reach;
     const FacetPoints at = points_of(facet, x_);
     for (int k = 0; k < 4; ++k) {
       const Vec3 normal = triangle_normal(at, k);
       const double twice_area = norm(normal);
       const double height = dot(probe_.x - at.centre, normal);
-      const double out = std::max(probe_.radius, 0.0) * twice_area, in = probe_.reach * twice_area;
+      const double out = std::max(probe_.radius, 0.0) * twice_area, in = reach * twice_area;
       if (height >= out || height < -in) continue;
       if (probe_.radius == 0 && dot(normal, probe_.outward) >= 0) continue;
       keep(f, k, (1 / twice_area) * normal, at);
     }
+  }
+
+  /// A node lies behind the far side of its own body, by all of an element where that is one element thick.
+  bool own_body(const SurfaceFacet& facet) const {
+    if (probe_.node < 0) return false;
+    return surface_.facets[surface_.around[surface_.around_begin[probe_.node]] / 4].body == facet.body;
   }
 
   void keep(std::int32_t f, int k, Vec3 n, const FacetPoints& at) {
