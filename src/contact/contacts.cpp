@@ -231,7 +231,8 @@ void Contacts::note_depth(const Pair& pair, const Active& active) {
   if (active.touch.overlap <= c.depth) return;
   const std::int32_t other =
       pair.is_body() ? surface_.facets[active.touch.point[0].facet].region : contactors_[pair.other].region;
-  std::uint8_t& reported = reported_[c.region * laws_.regions() + other];
+  const auto [low, high] = std::minmax(c.region, other);
+  std::uint8_t& reported = reported_[low * laws_.regions() + high];
   if (reported) return;
   reported = 1;
   deep_.push_back(

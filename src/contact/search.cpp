@@ -179,14 +179,14 @@ class Searcher {
   void find(std::int32_t i, const BoxGrid& facets, const BoxGrid& particles, Candidates& found) const {
     const Contactor& c = contactors_[i];
     const Vec3 p = position(c);
-    std::vector<std::pair<std::int32_t, std::int32_t>> by_body;
+    std::vector<std::pair<std::int32_t, std::int32_t>> by_body;  // −1 − body, facet
     facets.visit(p, [&](std::int32_t f) {
-      if (may_touch(c, f, p)) by_body.emplace_back(surface_.facets[f].body, f);
+      if (may_touch(c, f, p)) by_body.emplace_back(-1 - surface_.facets[f].body, f);
     });
     std::sort(by_body.begin(), by_body.end());
-    for (const auto& [body, f] : by_body) {
-      if (found.pairs.empty() || found.pairs.back().contactor != i || found.pairs.back().other != -1 - body)
-        found.pairs.push_back({i, -1 - body, static_cast<std::int32_t>(found.facets.size()), 0});
+    for (const auto& [other, f] : by_body) {
+      if (found.pairs.empty() || found.pairs.back().contactor != i || found.pairs.back().other != other)
+        found.pairs.push_back({i, other, static_cast<std::int32_t>(found.facets.size()), 0});
       found.facets.push_back(f), ++found.pairs.back().count;
     }
     if (c.radius == 0) return;

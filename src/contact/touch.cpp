@@ -36,10 +36,10 @@ bool falls(Vec3 away, Vec3 t) { return dot(away, t) > level * norm(away) * norm(
 Vec3 across_edge(Vec3 a, Vec3 b, Vec3 e) { return (b - a) - (dot(b - a, e) / dot(e, e)) * e; }
 
 /// Whether a contactor is as near to the plane of triangle k as it must be to touch it.
-bool near_plane(const FacetPoints& at, int k, const Probing& probe) {
+bool near_plane(const FacetPoints& at, int k, const Probing& probe, double reach) {
   const Vec3 normal = triangle_normal(at, k);
   const double height = dot(probe.x - at.centre, normal);  // times twice the area
-  const double most = height > 0 ? probe.radius : probe.reach;
+  const double most = height > 0 ? probe.radius : reach;
   return most > 0 && height * height < most * most * dot(normal, normal);
 }
 
@@ -64,9 +64,10 @@ class Examiner {
     const SurfaceFacet& facet = surface_.facets[f];
     for (const std::int32_t corner : facet.corner)
       if (corner == probe_.node) return;
+    const double reach = own_body(facet) ? std::min(probe_.reach, facet.depth) : probe_.reach;
     const FacetPoints at = points_of(facet, x_);
     for (int k = 0; k < 4; ++k) {
-      if (!near_plane(at, k, probe_)) continue;
+      if (!near_plane(at, k, probe_, reach)) continue;
       const Vec3 normal = triangle_normal(at, k);
       const double twice_area = norm(normal);
       const double towards = dot(normal, probe_.outward);
@@ -75,11 +76,18 @@ class Examiner {
     }
   }
 
+  /// A node lies behind the far side of its own body, by all of an element where that is one element thick.
+  bool own_body(const SurfaceFacet& facet) const {
+    if (probe_.node < 0) return false;
+    return surface_.facets[surface_.around[surface_.around_begin[probe_.node]] / 4].body == facet.body;
+  }
+
   void keep(std::int32_t f, int k, Vec3 n, const FacetPoints& at) {
     Nearest found{nearest_point(probe_.x, at.corner[k], at.corner[(k + 1) % 4], at.centre), 0, f, k, n, {}};
     found.away_ = probe_.x - found.point.p;
     found.distance = norm(found.away());
     if (found.distance >= std::max(probe_.radius, probe_.reach)) return;
+    if (count_ == most_points && probe_.radius > 0) keep_minima();
     if (count_ < most_points) {
       found_[count_++] = found;
       return;
@@ -88,6 +96,14 @@ class Examiner {
         *std::max_element(found_.begin(), found_.end(),
                           [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
     if (found.distance < farthest.distance) farthest = found;
+  }
+
+  /// Where facets are small, most triangles that a sphere reaches carry nothing: only a flank that does
+  /// counts.
+  void keep_minima() {
+    const auto end = std::remove_if(found_.begin(), found_.begin() + count_,
+                                    [this](const Nearest& a) { return !local_minimum(a); });
+    count_ = static_cast<int>(end - found_.begin());
   }
 
   /// Whether no point of the surface beside this one is nearer, so that it is a contact of its own.
@@ -128,6 +144,20 @@ class Examiner {
         if (falls(a.away(), q - p)) return false;
     }
     return true;
+  }
+
+  /// Whether the surface ends here: what lies beyond is no deeper inside than anything else there.
+  bool on_border(const Nearest& a) const {
+    const SurfaceFacet& facet = surface_.facets[a.facet];
+    if (a.point.feature == Feature::edge_ab) return facet.across[a.k] < 0;
+    if (a.point.feature != Feature::corner_a && a.point.feature != Feature::corner_b) return false;
+    const std::int32_t node = facet.corner[(a.k + (a.point.feature == Feature::corner_b)) % 4];
+    const auto ends = [this](std::int32_t s) {
+      const SurfaceFacet& around = surface_.facets[s / 4];
+      return around.across[s % 4] < 0 || around.across[(s + 3) % 4] < 0;
+    };
+    return std::any_of(surface_.around.begin() + surface_.around_begin[node],
+                       surface_.around.begin() + surface_.around_begin[node + 1], ends);
   }
 
   /// The surface's normal at a nearest point, which tells inside from outside.
@@ -196,10 +226,11 @@ class Examiner {
     const double depth = -dot(a.away(), a.n);
     if (depth <= 0) return {};
     const Vec3 sideways = a.away() + depth * a.n;
+    if (a.point.feature == Feature::face) return single(make_point(a, a.n, depth));
+    if (local_minimum(a) && !on_border(a))
+      return single(make_point(a, (-1 / a.distance) * a.away(), a.distance));
     const bool on_plane = norm(sideways) <= beside * std::sqrt(surface_.facets[a.facet].area);
-    if (a.point.feature == Feature::face || on_plane) return single(make_point(a, a.n, depth));
-    if (!local_minimum(a)) return {};
-    return single(make_point(a, (-1 / a.distance) * a.away(), a.distance));
+    return on_plane ? single(make_point(a, a.n, depth)) : Touch{};
   }
 
   const Surface& surface_;
@@ -218,19 +249,9 @@ class WayOut {
   bool solve(std::initializer_list<std::size_t> active) {
     const std::size_t n = active.size();
     index_.assign(active);
-    const auto& p = points_;
-    const auto c = [&](std::size_t a, std::size_t b) { return dot(p[index_[a]].n, p[index_[b]].n); };
-    const auto delta = [&](std::size_t a) { return p[index_[a]].overlap; };
-    if (n == 1) {
-      lambda_ = {delta(0), 0, 0};
-    } else {
-      const double s = n == 3 ? 1 : 0;  // a third equation that says λ_3 = 0
-      const Mat3 gram{{Vec3{1, c(0, 1), s ? c(0, 2) : 0}, Vec3{c(0, 1), 1, s ? c(1, 2) : 0},
-                       Vec3{s ? c(0, 2) : 0, s ? c(1, 2) : 0, 1}}};
-      if (det(gram) < 1e-9) return false;
-      const Vec3 solution = inverse(gram) * Vec3{delta(0), delta(1), s ? delta(2) : 0};
-      lambda_ = {solution.x, solution.y, solution.z};
-    }
+    if (n == 1) lambda_ = {point(0).overlap, 0, 0};
+    if (n == 2 && !solve_two()) return false;
+    if (n == 3 && !solve_three()) return false;
     for (std::size_t i = 0; i < n; ++i)
       if (!(lambda_[i] > 0)) return false;
     return leads_out(n);
@@ -254,6 +275,35 @@ class WayOut {
     std::size_t operator[](std::size_t k) const { return i[k]; }
   };
 
+  const TouchPoint& point(std::size_t i) const { return points_[index_[i]]; }
+
+  /// By differences of the normals, e = n_2 − n_1 (e·n_1 = −|e|²/2), so that nothing cancels where they are
+  /// nearly parallel.
+  bool solve_two() {
+    const Vec3 e = point(1).n - point(0).n;
+    const double along = -0.5 * dot(e, e), across = dot(e, e) - along * along;
+    if (across < 1e-9) return false;
+    const double delta = point(0).overlap;
+    const double t = (point(1).overlap - delta - delta * along) / across;
+    lambda_ = {delta - t * (1 + along), t, 0};
+    return true;
+  }
+
+  /// The same for three: d solves n_1·d = δ_1, e_2·d = δ_2 − δ_1, e_3·d = δ_3 − δ_1. Normals in one plane are
+  /// left to pairs, however near to each other they are.
+  bool solve_three() {
+    const Vec3 n = point(0).n, e2 = point(1).n - n, e3 = point(2).n - n;
+    const Vec3 a = cross(e2, e3), b = cross(e3, n), c = cross(n, e2);
+    const double volume = dot(n, a), pairs = dot(b, b) * dot(c, c) * dot(e3 - e2, e3 - e2);
+    if (volume * volume < 1e-9 * std::cbrt(pairs * pairs)) return false;
+    const double delta = point(0).overlap;
+    const Vec3 d =
+        (1 / volume) * (delta * a + (point(1).overlap - delta) * b + (point(2).overlap - delta) * c);
+    const double all = dot(d, a) / volume, second = dot(d, b) / volume, third = dot(d, c) / volume;
+    lambda_ = {all - second - third, second, third};
+    return true;
+  }
+
   bool leads_out(std::size_t n) const {
     Vec3 d;
     for (std::size_t i = 0; i < n; ++i) d += lambda_[i] * points_[index_[i]].n;
@@ -267,14 +317,23 @@ class WayOut {
   std::array<double, 3> lambda_{};
 };
 
-/// The deepest three push by themselves.
+/// The deepest three push by themselves, each direction once. Where they cancel, the overlap stays as much
+/// above zero as keeps λ / overlap finite.
 Touch pinched(std::span<const TouchPoint> points) {
+  std::array<TouchPoint, most_points> deepest;
+  std::copy(points.begin(), points.end(), deepest.begin());
+  std::stable_sort(deepest.begin(), deepest.begin() + static_cast<std::ptrdiff_t>(points.size()),
+                   [](const TouchPoint& a, const TouchPoint& b) { return a.overlap > b.overlap; });
   Touch t;
   Vec3 d;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, points.size()); ++i)
-    t.point[t.count++] = points[i], d += points[i].overlap * points[i].n;
-  t.overlap = norm(d);
-  t.normal = t.overlap > 0 ? (1 / t.overlap) * d : points[0].n;
+  for (std::size_t i = 0; i < points.size() && t.count < 3; ++i) {
+    const auto same = [&](const TouchPoint& q) { return norm(q.n - deepest[i].n) < 1e-6; };
+    if (std::any_of(t.point.begin(), t.point.begin() + t.count, same)) continue;
+    t.point[t.count++] = deepest[i], d += deepest[i].overlap * deepest[i].n;
+  }
+  const double least = 1e-9 * deepest[0].overlap;
+  t.overlap = std::max(norm(d), least);
+  t.normal = norm(d) > least ? (1 / norm(d)) * d : deepest[0].n;
   return t;
 }
 
@@ -306,8 +365,8 @@ bool may_touch(const Surface& surface, const Field<3>& x, std::span<const std::i
                const Probing& probe) {
   return std::any_of(facets.begin(), facets.end(), [&](std::int32_t f) {
     const FacetPoints at = points_of(surface.facets[f], x);
-    return near_plane(at, 0, probe) || near_plane(at, 1, probe) || near_plane(at, 2, probe) ||
-           near_plane(at, 3, probe);
+    const auto near = [&](int k) { return near_plane(at, k, probe, probe.reach); };
+    return near(0) || near(1) || near(2) || near(3);
   });
 }
 
