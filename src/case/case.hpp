@@ -63,7 +63,7 @@ struct Where {
 
 /// How the bodies of a pair of regions act on each other where they touch.
 struct ContactSpec {
-  /// Two regions, or the same one twice; none: any two different ones.
+  /// Two regions, or the same one twice; none: any two, and each with itself.
   struct Between {
     std::optional<std::array<std::string, 2>> regions;
   } between;

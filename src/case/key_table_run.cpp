@@ -30,13 +30,13 @@ Table contact_table() {
       "contact[]",
       "[[contact]]",
       "Contact between bodies: without it they pass through each other. Stiffnesses come from the materials. "
-      "A "
-      "pair that is named outdoes \"all\". Regions of a named pair may touch or leave any gap: blocks of "
+      "A pair that is named outdoes \"all\". Regions of a named pair may touch or leave any gap: blocks of "
       "hexahedra share no nodes then, and need no matching divisions. Only a lattice that lies flush on "
       "hexahedra is bonded to them by ghosts as ever (unless the coupling's type is none).",
       {within(Type::pair, "between", "regions",
-              "The two regions; the same one twice for contact with itself; or \"all\" for any two different "
-              "ones.")
+              "The two regions; the same one twice for contact with itself; or \"all\" for any two and each "
+              "with "
+              "itself.")
            .required(),
        choice("law", {"penalty", "hertz"},
               "Normal force: linear in the overlap (penalty), or Hertz' law of spheres, for pairs with "

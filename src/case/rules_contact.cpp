@@ -59,22 +59,12 @@ void check_law(Document& document, const View& root, const View& contact) {
                                 a == b ? fmt::format("those of '{}'", a) : words(*between)));
 }
 
-void check_regions(Document& document, const View& root, const View& contact) {
-  const auto between = contact.get<Between>("between");
-  if (!between || between->regions || root.named("regions").size() != 1) return;
-  const std::string name = root.named("regions")[0].name();
-  document.report(contact.place("between"),
-                  fmt::format("\"all\" means any two different regions, and there is only one; contact with "
-                              "itself is [\"{}\", \"{}\"]",
-                              name, name));
-}
-
 }  // namespace
 
 void check_contact(Document& document, const View& root) {
   const std::vector<View> list = root.tables("contact");
   check_declared_once(document, list);
-  for (const View& contact : list) check_law(document, root, contact), check_regions(document, root, contact);
+  for (const View& contact : list) check_law(document, root, contact);
   const bool none = list.empty() && (!root.has("contact") || root.acceptable("contact"));
   for (const View& probe : root.named("probes"))
     if (none && probe.get<std::string>("quantity") == "contact-force")

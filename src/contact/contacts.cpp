@@ -9,12 +9,6 @@
 namespace geist::contact {
 namespace {
 
-const Material& material_of(const Model& model, std::int32_t region) {
-  const auto hexahedral = static_cast<std::int32_t>(model.mesh.regions.size());
-  return region < hexahedral ? model.mesh.regions[region].material
-                             : model.lattices[region - hexahedral].material;
-}
-
 struct Velocity {
   Vec3 linear, spin;
 };
@@ -57,10 +51,10 @@ Vec3 force_at(const Touch& touch, const Response& response, int i) {
 Contacts::Contacts(const Model& model, LawTable laws) : laws_(std::move(laws)) {
   if (laws_.empty()) return;
   const auto regions = static_cast<std::int32_t>(laws_.regions());
-  for (std::int32_t a = 0; a < regions; ++a) layer_.push_back(layer_modulus(material_of(model, a)));
+  for (std::int32_t a = 0; a < regions; ++a) layer_.push_back(layer_modulus(region_material(model, a)));
   for (std::int32_t number = 0; number < laws_.count(); ++number) {
     const auto [a, b] = laws_.regions_of(number);
-    pair_laws_.emplace_back(laws_.law(number), material_of(model, a), material_of(model, b));
+    pair_laws_.emplace_back(laws_.law(number), region_material(model, a), region_material(model, b));
   }
   surface_ = make_surface(model, laws_.touching());
   contactors_ = make_contactors(model, surface_, laws_, places_);
@@ -142,11 +136,10 @@ void Contacts::meet_body(const Model& model, std::size_t number, double dt) {
       inverse_mass += w * p.weight[a] * inverse_mass_along(places_.inverse_mass.vector(corner), t.normal);
     }
   }
-  const double compliance =
-      c.radius > 0 ? 1 / (4 * c.radius * layer_[deepest.region]) : deepest.depth / layer_[deepest.region];
+  const Opposite facet{deepest.region, 0, deepest.depth};
   active.response = respond(law,
-                            {spring(law, c, -dot(probe.outward, t.normal), compliance), t.overlap,
-                             lambda / t.overlap, t.normal, velocity, inverse_mass},
+                            {spring(c, -dot(probe.outward, t.normal), facet), t.overlap, lambda / t.overlap,
+                             t.normal, velocity, inverse_mass},
                             dt, memory_[number]);
 }
 
@@ -165,22 +158,23 @@ void Contacts::meet_particle(const Model& model, std::size_t number, double dt) 
   const double inverse_mass = inverse_mass_along(places_.inverse_mass.vector(a.place), n) +
                               inverse_mass_along(places_.inverse_mass.vector(b.place), n);
   const PairLaw& law = pair_laws_[laws_.at(a.region, b.region)];
-  NormalStiffness k = spring(law, a, 0, 1 / (4 * b.radius * layer_[b.region]));
-  if (k.hertz) k.k *= std::sqrt(b.radius / (a.radius + b.radius));  // 1/R* = 1/R_a + 1/R_b
+  const NormalStiffness k = spring(a, 0, {b.region, b.radius, 0});
   active_[number].response = respond(law, {k, overlap, 1, n, velocity, inverse_mass}, dt, memory_[number]);
 }
 
 /// Two columns of material in series: for a particle the half of its cell, 4 r (λ + 2μ), and the same of the
 /// other side; for a node half an element's thickness on either side, over half of its area as seen from the
-/// other side (the other half of the stiffness comes from the other surface's nodes). Hertz: 4/3 E* √R on a
-/// flat.
-NormalStiffness Contacts::spring(const PairLaw& law, const Contactor& c, double area,
-                                 double other_compliance) const {
-  const double factor = law.law.factor;
-  if (c.radius == 0) return {factor * 0.5 * area / (c.depth / layer_[c.region] + other_compliance), false};
-  if (law.law.normal == Law::Normal::hertz)
-    return {factor * 4 / 3 * law.moduli.E * std::sqrt(c.radius), true};
-  return {factor / (1 / (4 * c.radius * layer_[c.region]) + other_compliance), false};
+/// other side (the other half of the stiffness comes from the other surface's nodes). Hertz: 4/3 E* √R*.
+NormalStiffness Contacts::spring(const Contactor& c, double area, const Opposite& other) const {
+  const PairLaw& pair = pair_laws_[laws_.at(c.region, other.region)];
+  const double factor = pair.law.factor, own = layer_[c.region], theirs = layer_[other.region];
+  if (c.radius == 0) return {factor * 0.5 * area / (c.depth / own + other.depth / theirs), false};
+  if (pair.law.normal == Law::Normal::hertz) {
+    const double R = other.radius > 0 ? c.radius * other.radius / (c.radius + other.radius) : c.radius;
+    return {factor * 4 / 3 * pair.moduli.E * std::sqrt(R), true};
+  }
+  const double cell = other.radius > 0 ? other.radius : c.radius;  // a facet counts as the particle's like
+  return {factor / (1 / (4 * c.radius * own) + 1 / (4 * cell * theirs)), false};
 }
 
 void Contacts::collect(const Model& model) {
@@ -311,16 +305,18 @@ double Contacts::particle_charge(const Model& model, std::int32_t l) const {
   return most;
 }
 
-/// Against any contactor or facet of a region; Hertz' law at the overlap where it is reported, δ = r.
+/// Against any contactor or facet of a region; Hertz' law at the overlap where it is reported, δ = r. Of a
+/// node and a particle, the particle is the contactor.
 double Contacts::largest_stiffness(const Contactor& c, std::int32_t other) const {
-  const PairLaw& law = pair_laws_[laws_.at(c.region, other)];
-  if (c.radius == 0 && least_[other].radius > 0)  // the particle is the contactor
-    return spring(law, least_[other], 0, 1 / (4 * least_[other].radius * layer_[c.region]))
-        .tangent(least_[other].radius);
-  const double half = least_[other].radius > 0 ? 1 / (4 * least_[other].radius * layer_[other])
-                      : c.radius > 0           ? 1 / (4 * c.radius * layer_[other])
-                                               : least_[other].depth / layer_[other];
-  return spring(law, c, c.area, half).tangent(c.radius);
+  const Contactor& least = least_[other];
+  if (c.radius == 0 && least.radius > 0) return spring(least, 0, {c.region, 0, 0}).tangent(least.radius);
+  return spring(c, c.area, {other, least.radius, least.depth}).tangent(c.radius);
+}
+
+NormalStiffness Contacts::stiffness(std::int32_t number) const {
+  auto [a, b] = laws_.regions_of(number);
+  if (least_[a].radius == 0 && least_[b].radius > 0) std::swap(a, b);
+  return spring(least_[a], 2, {b, least_[b].radius, least_[b].depth});
 }
 
 std::vector<DeepContact> Contacts::take_deep_contacts() { return std::exchange(deep_, {}); }

@@ -88,6 +88,9 @@ class Contacts {
   double particle_charge(const Model& model, std::int32_t lattice) const;
 
   // For people and benchmarks
+  const LawTable& laws() const { return laws_; }
+  /// Normal stiffness of a law's pair of regions: of a particle, or by area between the thinnest hexahedra.
+  NormalStiffness stiffness(std::int32_t law) const;
   std::size_t contactors() const { return contactors_.size(); }
   std::size_t facets() const { return surface_.facets.size(); }
   std::size_t candidates() const { return candidates_.pairs.size(); }
@@ -100,12 +103,18 @@ class Contacts {
     Response response;
   };
 
+  /// What a contactor meets: a particle, or (radius 0) a facet with half an element's thickness behind it.
+  struct Opposite {
+    std::int32_t region;
+    double radius, depth;
+  };
+
   void search_again(const Model& model);
   void meet(const Model& model, std::size_t pair, double dt);
   void meet_body(const Model& model, std::size_t pair, double dt);
   void meet_particle(const Model& model, std::size_t pair, double dt);
   double largest_stiffness(const Contactor& c, std::int32_t other) const;
-  NormalStiffness spring(const PairLaw& law, const Contactor& c, double area, double other_compliance) const;
+  NormalStiffness spring(const Contactor& c, double area, const Opposite& other) const;
   void collect(const Model& model);
   void push(const Pair& pair, const Active& active);
   void push_body(const Pair& pair, const Active& active);

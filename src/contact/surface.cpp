@@ -38,16 +38,21 @@ std::vector<std::int32_t> regions_of(const Mesh& mesh) {
   return region;
 }
 
-/// Whether particles at the interface touch this facet at rest.
+/// Whether this facet of a region is a lattice's interface: its ghosts ride there, and its particles touch it
+/// at rest.
 class InterfaceFinder {
  public:
-  explicit InterfaceFinder(const Model& model) : model_(model) {}
+  InterfaceFinder(const Model& model, const std::vector<std::int32_t>& region) : model_(model) {
+    for (const Lattice& lattice : model.lattices) {
+      hosts_.emplace_back(model.mesh.regions.size(), false);
+      for (const Ghost& ghost : lattice.ghosts) hosts_.back()[region[ghost.element]] = true;
+    }
+  }
 
-  bool operator()(const std::array<Vec3, 4>& corner) const {
-    const auto touched_by = [&](const Lattice& lattice) {
-      return !lattice.ghosts.empty() && touches(lattice, corner);
-    };
-    return std::any_of(model_.lattices.begin(), model_.lattices.end(), touched_by);
+  bool operator()(std::int32_t region, const std::array<Vec3, 4>& corner) const {
+    for (std::size_t l = 0; l < hosts_.size(); ++l)
+      if (hosts_[l][region] && touches(model_.lattices[l], corner)) return true;
+    return false;
   }
 
  private:
@@ -73,6 +78,7 @@ class InterfaceFinder {
     return false;
   }
   const Model& model_;
+  std::vector<std::vector<bool>> hosts_;  ///< by lattice and region: whether its ghosts ride there
 };
 
 SurfaceFacet make_facet(const Mesh& mesh, const Facet& facet) {
@@ -129,13 +135,13 @@ double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(
 Surface make_surface(const Model& model, const std::vector<std::uint8_t>& wanted) {
   const Mesh& mesh = model.mesh;
   Surface surface;
-  const InterfaceFinder at_interface(model);
   const std::vector<std::int32_t> body = bodies_of(mesh), region = regions_of(mesh);
+  const InterfaceFinder at_interface(model, region);
   for (const Facet& exterior : exterior_facets(mesh)) {
     if (!wanted.empty() && !wanted[region[exterior.element]]) continue;
     std::array<Vec3, 4> corner;
     for (int k = 0; k < 4; ++k) corner[k] = mesh.points[exterior.node[k]];
-    if (at_interface(corner)) continue;
+    if (at_interface(region[exterior.element], corner)) continue;
     SurfaceFacet facet = make_facet(mesh, exterior);
     facet.region = region[exterior.element], facet.body = body[exterior.element];
     surface.facets.push_back(facet);

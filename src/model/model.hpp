@@ -1,5 +1,7 @@
 // Model: everything that exists, and when.
 #pragma once
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "model/lattice.hpp"
@@ -13,5 +15,9 @@ struct Model {
   double time = 0;  ///< t^n, the time of displacements and forces
   long step = 0;    ///< n
 };
+
+/// Regions numbered hexahedra first, then lattices, as everywhere.
+const std::string& region_name(const Model& model, std::int32_t region);
+const Material& region_material(const Model& model, std::int32_t region);
 
 }  // namespace geist

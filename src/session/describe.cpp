@@ -7,8 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "case/contact_laws.hpp"
-#include "contact/surface.hpp"
 #include "core/parallel.hpp"
 #include "de/bonds.hpp"
 #include "fe/elements.hpp"
@@ -57,72 +55,30 @@ std::string regions(const Built& built, const output::UnitSystem& units) {
   return text;
 }
 
-/// A side of a contact: how a column of its material gives way under a force (particle) or a pressure (half
-/// an element), as contact/contacts.cpp has it.
-struct Side {
-  std::string name;
-  Material material;
-  double radius;  ///< 0 for hexahedra
-  double depth;   ///< half of the thinnest element's thickness at the surface
-
-  double compliance() const {
-    const double layer = contact::layer_modulus(material);
-    return radius > 0 ? 1 / (4 * radius * layer) : depth / layer;
-  }
-};
-
-std::vector<Side> sides(const Model& model) {
-  std::vector<Side> all;
-  for (const HexRegion& region : model.mesh.regions)
-    all.push_back({region.name, region.material, 0, std::numeric_limits<double>::infinity()});
-  for (const contact::SurfaceFacet& facet : contact::make_surface(model).facets)
-    all[facet.region].depth = std::min(all[facet.region].depth, facet.depth);
-  for (const Lattice& lattice : model.lattices)
-    all.push_back({lattice.name, lattice.material, lattice.radius(), lattice.radius()});
-  return all;
-}
-
-/// Normal stiffness, in words: of two surfaces per area, of particles for each of them.
-std::string stiffness(const contact::Law& law, const Side& a, const Side& b,
-                      const output::UnitSystem& units) {
-  const std::string force = units.label(output::dimension::force);
-  const std::string_view length = units.length().name;
-  if (a.radius == 0 && b.radius == 0)
-    return fmt::format("{:.4g} {}/{}^3 (force per area and overlap)",
-                       law.factor / (a.compliance() + b.compliance()), force, length);
-  if (law.normal == contact::Law::Normal::hertz) {
-    const double curvature = (a.radius > 0 ? 1 / a.radius : 0) + (b.radius > 0 ? 1 / b.radius : 0);
-    const double E = contact::PairModuli(a.material, b.material).E;
-    return fmt::format("{:.4g} {}/{}^1.5 for a particle", law.factor * 4 / 3 * E / std::sqrt(curvature),
-                       force, length);
-  }
-  const auto under_particle = [](const Side& s, double radius) {
-    return 1 / (4 * (s.radius > 0 ? s.radius : radius) * contact::layer_modulus(s.material));
-  };
-  const double r = std::max(a.radius, b.radius);
-  return fmt::format("{:.4g} {}/{} for a particle",
-                     law.factor / (under_particle(a, r) + under_particle(b, r)), force, length);
-}
-
-std::string contact_pair(const contact::Law& law, const Side& a, const Side& b,
+std::string contact_pair(const contact::Contacts& contacts, std::int32_t number, const Model& model,
                          const output::UnitSystem& units) {
-  std::string text = fmt::format("  {:<12} {}", a.name + " - " + b.name,
-                                 law.normal == contact::Law::Normal::hertz ? "hertz" : "penalty");
+  const contact::Law& law = contacts.laws().law(number);
+  const auto [a, b] = contacts.laws().regions_of(number);
+  const contact::NormalStiffness stiffness = contacts.stiffness(number);
+  const bool particles = b >= static_cast<std::int32_t>(model.mesh.regions.size());
+  std::string text = fmt::format("  {:<12} {}", region_name(model, a) + " - " + region_name(model, b),
+                                 stiffness.hertz ? "hertz" : "penalty");
   if (law.restitution < 1) text += fmt::format(", restitution {:.6g}", law.restitution);
   text += law.friction > 0 ? fmt::format(", friction {:.6g}", law.friction) : ", no friction";
-  return text + fmt::format("; {}\n", stiffness(law, a, b, units));
+  return text + fmt::format("; {:.4g} {}/{}{}\n", stiffness.k, units.label(output::dimension::force),
+                            units.length().name,
+                            stiffness.hertz ? "^1.5 for a particle"
+                            : particles     ? " for a particle"
+                                            : "^3 (force per area and overlap)");
 }
 
-std::string contacts(const Case& input, const Simulation& sim, const output::UnitSystem& units) {
+std::string contacts(const Simulation& sim, const output::UnitSystem& units) {
   constexpr std::int32_t most = 20;
-  const contact::LawTable laws = make_contact_laws(sim.model, input);
-  const std::vector<Side> all = sides(sim.model);
+  const std::int32_t laws = sim.contacts.laws().count();
   std::string text = "Contact\n";
-  for (std::int32_t number = 0; number < std::min(most, laws.count()); ++number) {
-    const auto [a, b] = laws.regions_of(number);
-    text += contact_pair(laws.law(number), all[a], all[b], units);
-  }
-  if (laws.count() > most) text += fmt::format("  and {} more pairs\n", laws.count() - most);
+  for (std::int32_t number = 0; number < std::min(most, laws); ++number)
+    text += contact_pair(sim.contacts, number, sim.model, units);
+  if (laws > most) text += fmt::format("  and {} more pairs\n", laws - most);
   return text + fmt::format("  in all       {} nodes and particles that may touch, {} facets\n",
                             with_commas(static_cast<long long>(sim.contacts.contactors())),
                             with_commas(static_cast<long long>(sim.contacts.facets())));
@@ -189,7 +145,7 @@ std::string describe(const Case& input, const Built& built) {
   if (input.coupling == "ghost-particles" && !built.simulation.model.lattices.empty() &&
       !built.simulation.model.mesh.elements.empty())
     text += fmt::format("Coupling\n  ghost particles, rotation {}\n", input.rotation);
-  if (!input.contact.empty()) text += contacts(input, built.simulation, units);
+  if (!input.contact.empty()) text += contacts(built.simulation, units);
   return text + time_step(input, built, units) + analysis(input, built, units);
 }
 

@@ -60,12 +60,6 @@ std::string first_place(const Model& model, Node node_is_it, Site site_is_it) {
   return {};
 }
 
-/// Regions are numbered hexahedra first, then lattices.
-std::string region_name(const Model& model, std::int32_t region) {
-  const auto r = static_cast<std::size_t>(region), hexahedral = model.mesh.regions.size();
-  return r < hexahedral ? model.mesh.regions[r].name : model.lattices[r - hexahedral].name;
-}
-
 std::string describe(const Model& model, const contact::DeepContact& deep) {
   std::string place = fmt::format("node {}", deep.place.index);
   if (deep.place.lattice >= 0) {
