@@ -69,6 +69,11 @@ Contacts::Contacts(const Model& model, LawTable laws) : laws_(std::move(laws)) {
     skin_ = skin_ == 0 ? reach(c) / 2 : std::min(skin_, reach(c) / 2);
     if (Contactor& least = least_[c.region]; least.region < 0 || c.depth < least.depth) least = c;
   }
+  largest_area_.resize(laws_.regions(), 0), thinnest_.resize(laws_.regions(), 0);
+  for (const Contactor& c : contactors_) largest_area_[c.region] = std::max(largest_area_[c.region], c.area);
+  for (const SurfaceFacet& facet : surface_.facets)
+    if (double& thinnest = thinnest_[facet.region]; thinnest == 0 || facet.depth < thinnest)
+      thinnest = facet.depth;
   const std::size_t n = places_.list.size();
   force_.resize(n), moment_.resize(n), marked_.resize(n);
   reported_.resize(laws_.regions() * laws_.regions());
@@ -281,10 +286,11 @@ std::vector<double> Contacts::node_charges(const Model& model) const {
     double most = 0;
     for (std::int32_t other = 0; other < static_cast<std::int32_t>(laws_.regions()); ++other) {
       if (laws_.at(c.region, other) < 0) continue;
-      const double k = largest_stiffness(c, other);
-      if (other < hexahedral) {
-        most = std::max(most, 2 * 2 * k);  // as contactor, and under those of the other surface
+      if (other < hexahedral) {  // as contactor, and under those of the other surface
+        const Contactor over{-1, other, 0, std::max(c.area, largest_area_[other]), least_[other].depth};
+        most = std::max(most, 2 * largest_stiffness(c, other) + 2 * largest_stiffness(over, c.region));
       } else {
+        const double k = largest_stiffness(c, other);
         const double cell = 4 * least_[other].radius * least_[other].radius;
         most = std::max(most, 2 * k * std::max(1.0, c.area / cell));
       }
@@ -319,7 +325,7 @@ double Contacts::largest_stiffness(const Contactor& c, std::int32_t other) const
         .tangent(least_[other].radius);
   const double half = least_[other].radius > 0 ? 1 / (4 * least_[other].radius * layer_[other])
                       : c.radius > 0           ? 1 / (4 * c.radius * layer_[other])
-                                               : least_[other].depth / layer_[other];
+                                               : thinnest_[other] / layer_[other];
   return spring(law, c, c.area, half).tangent(c.radius);
 }
 
