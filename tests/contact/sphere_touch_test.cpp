@@ -181,7 +181,7 @@ double steepest(const Probed& body, double r, Path path, int steps) {
 // The projection onto a convex set is 1-Lipschitz in what is projected; half-spaces that meet at a small
 // angle and turning normals make it steeper by a factor of order one, a jump by that of the number of steps.
 constexpr double lipschitz = 8;
-constexpr int fine = 6'000;
+constexpr int fine = 4'000;
 
 TEST(Sphere, AlongABowlMovesWithoutJumps) {
   for (const double curvature : {0.6, 0.05, -0.05, -0.6})
@@ -290,7 +290,7 @@ TEST(Sphere, GainsNothingOnAClosedPath) {
       p.z = height_of(p, curvature) + r - 0.02 + 0.015 * std::cos(3 * phi);
       return p;
     };
-    const auto [work, sum] = circulation(body, r, loop, 20'000);
+    const auto [work, sum] = circulation(body, r, loop, 8'000);
     EXPECT_LE(std::abs(work), 1e-3 * sum) << curvature;
   }
 }
