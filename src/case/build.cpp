@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <stdexcept>
 
 #include "case/boundary.hpp"
@@ -159,9 +158,6 @@ void hold_ghost_spins(Model& model, const Case& input) {
 
 double choose_time_step(const Case& input, const std::vector<TimeStepBound>& bounds) {
   const TimeStepBound& least = critical(bounds);
-  if (!input.analysis.time_step && std::isinf(least.bound))
-    throw error_at(input, input.analysis.source,
-                   "all nodes are held, so nothing limits the time step; give 'time_step'");
   if (!input.analysis.time_step) return rounded_down(input.analysis.safety * least.bound);
   if (*input.analysis.time_step > least.bound)
     throw error_at(input, input.analysis.source,

@@ -63,6 +63,10 @@ Contacts::Contacts(const Model& model, LawTable laws) : laws_(std::move(laws)) {
     skin_ = skin_ == 0 ? reach(c) / 2 : std::min(skin_, reach(c) / 2);
     if (Contactor& least = least_[c.region]; least.region < 0 || c.depth < least.depth) least = c;
   }
+  thinnest_.resize(laws_.regions(), 0);
+  for (const SurfaceFacet& facet : surface_.facets)
+    if (double& thinnest = thinnest_[facet.region]; thinnest == 0 || facet.depth < thinnest)
+      thinnest = facet.depth;
   const std::size_t n = places_.list.size();
   force_.resize(n), moment_.resize(n), marked_.resize(n);
   reported_.resize(laws_.regions() * laws_.regions());
@@ -124,6 +128,7 @@ void Contacts::meet_body(const Model& model, std::size_t number, double dt) {
   const auto [v, spin] = velocity_of(model, places_.list[c.place]);
   const double lambda = t.lambda_sum();
   Vec3 velocity = v;
+  double facet_area = 0;  // that of its nodes: no facet gets more than its own share of stiffness
   double inverse_mass = inverse_mass_along(places_.inverse_mass.vector(c.place), t.normal);
   for (int i = 0; i < t.count; ++i) {
     const TouchPoint& p = t.point[i];
@@ -133,13 +138,14 @@ void Contacts::meet_body(const Model& model, std::size_t number, double dt) {
       const std::int32_t corner = surface_.facets[p.facet].corner[a];
       const double w = share * p.weight[a];
       velocity -= w * velocity_of(model, places_.list[corner]).linear;
+      facet_area += w * surface_.node_area[corner];
       inverse_mass += w * p.weight[a] * inverse_mass_along(places_.inverse_mass.vector(corner), t.normal);
     }
   }
   const Opposite facet{deepest.region, 0, deepest.depth};
   active.response = respond(law,
-                            {spring(c, -dot(probe.outward, t.normal), facet), t.overlap, lambda / t.overlap,
-                             t.normal, velocity, inverse_mass},
+                            {spring(c, std::min(facet_area, -dot(probe.outward, t.normal)), facet), t.overlap,
+                             lambda / t.overlap, t.normal, velocity, inverse_mass},
                             dt, memory_[number]);
 }
 
@@ -310,13 +316,13 @@ double Contacts::particle_charge(const Model& model, std::int32_t l) const {
 double Contacts::largest_stiffness(const Contactor& c, std::int32_t other) const {
   const Contactor& least = least_[other];
   if (c.radius == 0 && least.radius > 0) return spring(least, 0, {c.region, 0, 0}).tangent(least.radius);
-  return spring(c, c.area, {other, least.radius, least.depth}).tangent(c.radius);
+  return spring(c, c.area, {other, least.radius, thinnest_[other]}).tangent(c.radius);
 }
 
 NormalStiffness Contacts::stiffness(std::int32_t number) const {
   auto [a, b] = laws_.regions_of(number);
   if (least_[a].radius == 0 && least_[b].radius > 0) std::swap(a, b);
-  return spring(least_[a], 2, {b, least_[b].radius, least_[b].depth});
+  return spring(least_[a], 2, {b, least_[b].radius, thinnest_[b]});
 }
 
 std::vector<DeepContact> Contacts::take_deep_contacts() { return std::exchange(deep_, {}); }

@@ -83,7 +83,7 @@ class Contacts {
   /// What contact may add to Σ ω² m of a node (by node of the mesh), and to ω² of the particles of a lattice.
   /// A spring k (n·(u_c − Σ N_I u_I))²/2 is at most k (u_c² + Σ N_I u_I²), so it charges its contactor and,
   /// by N_I, the nodes of the facet with 2 k. A node is charged once as contactor and by as many contactors
-  /// as its share of the surface holds.
+  /// as its share of the surface holds; one that stands for more presses with that share only.
   std::vector<double> node_charges(const Model& model) const;
   double particle_charge(const Model& model, std::int32_t lattice) const;
 
@@ -129,6 +129,7 @@ class Contacts {
   Places places_;
   std::vector<Contactor> contactors_;
   std::vector<Contactor> least_;  ///< by region: the thinnest one
+  std::vector<double> thinnest_;  ///< by region: depth of its facets
   double skin_ = 0;
 
   Candidates candidates_;

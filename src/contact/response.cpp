@@ -49,7 +49,9 @@ Response respond(const PairLaw& pair, const Meeting& meeting, double dt, Memory&
   const double rate = -dot(meeting.velocity, meeting.normal);  // δ̇
   const double dashpot =
       meeting.inverse_mass > 0 ? 2 * pair.damping * std::sqrt(k / meeting.inverse_mass) : 0;
-  response.normal = std::max(0.0, elastic + dashpot * rate);
+  // The rate is that of half a step ago; the one of now is ½ Δt F/m* less, as far as this contact goes.
+  const double lag = 1 + 0.5 * dt * dashpot * meeting.inverse_mass;
+  response.normal = std::max(0.0, (elastic + dashpot * rate) / lag);
   response.stored = meeting.spring.energy(meeting.overlap);
   const double damping = response.normal - elastic;
   response.damping = 0.5 * dt * (memory.damping + damping) * rate;

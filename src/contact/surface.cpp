@@ -147,6 +147,9 @@ Surface make_surface(const Model& model, const std::vector<std::uint8_t>& wanted
     surface.facets.push_back(facet);
   }
   number_nodes(surface, mesh.nodes());
+  surface.node_area.assign(surface.nodes.size(), 0);
+  for (const SurfaceFacet& facet : surface.facets)
+    for (const std::int32_t corner : facet.corner) surface.node_area[corner] += facet.area / 4;
   find_neighbours(surface);
   return surface;
 }

@@ -26,6 +26,8 @@ struct Surface {
   std::vector<SurfaceFacet> facets;
   std::vector<std::int32_t> nodes;  ///< of the mesh, ascending
 
+  std::vector<double> node_area;  ///< by node: a quarter of each facet around it
+
   /// The facets around node place i, each as 4 · facet + corner: around[around_begin[i] .. around_begin[i +
   /// 1]).
   std::vector<std::int32_t> around_begin, around;

@@ -29,11 +29,11 @@ TEST(ContactOfACase, IsNoneUnlessAskedFor) {
   EXPECT_TRUE(build(small_case()).simulation.contacts.empty());
 }
 
-TEST(ContactOfACase, AllMeansTwoDifferentRegions) {
+TEST(ContactOfACase, AllMeansAnyTwoRegionsAndEachWithItself) {
   const contact::LawTable table = laws(contact("\"all\""));
-  EXPECT_EQ(table.count(), 3);
+  EXPECT_EQ(table.count(), 6);
   for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b) EXPECT_EQ(table.at(a, b) < 0, a == b);
+    for (int b = 0; b < 3; ++b) EXPECT_GE(table.at(a, b), 0);
   const Law law = table.law(table.at(0, 2));
   EXPECT_EQ(law.normal, Law::Normal::penalty);
   EXPECT_EQ(law.factor, 1);
@@ -46,7 +46,7 @@ TEST(ContactOfACase, ANamedPairOutdoesAllInAnyOrder) {
                     named = contact("[\"right\", \"left\"]", "friction = 0.2\nrestitution = 0.5\n");
   for (const std::string& both : {all + named, named + all}) {
     const contact::LawTable table = laws(both);
-    EXPECT_EQ(table.count(), 3);
+    EXPECT_EQ(table.count(), 6);
     EXPECT_EQ(table.law(table.at(0, 2)).friction, 0.2);
     EXPECT_EQ(table.law(table.at(0, 2)).restitution, 0.5);
     EXPECT_EQ(table.law(table.at(0, 1)).friction, 0.1);
@@ -71,14 +71,14 @@ TEST(ContactOfACase, ShortensTheTimeStep) {
             0.5 * build(small_case(third)).simulation.dt);
 }
 
-TEST(ContactOfACase, NothingToMoveNeedsATimeStep) {
+TEST(ContactOfACase, ABodyHeldAltogetherHasATimeStep) {
   const std::string text = materials +
                            "[regions.a]\ntype = \"hexahedra\"\nmaterial = \"m\"\nbox = [[0, 0, 0], [1, 1, "
                            "1]]\ndivisions = [1, 1, 1]\n[[supports]]\nwhere = { x = [0, 1] }\n"
                            "fix = [\"x\", \"y\", \"z\"]\n" +
                            dynamic;
-  expect_build_error(text, "[analysis]", {"all nodes are held", "'time_step'"});
-  EXPECT_EQ(build(read_case_text(text + "time_step = 0.5\n", "small.toml")).simulation.dt, 0.5);
+  const double dt = build(read_case_text(text, "small.toml")).simulation.dt;
+  EXPECT_TRUE(dt > 0 && std::isfinite(dt)) << dt;
 }
 
 TEST(ContactOfACase, ProbesSumItsForces) {
