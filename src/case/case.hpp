@@ -121,7 +121,8 @@ struct AnalysisSpec {
 
 struct OutputSpec {
   std::optional<double> fields_every,
-      history_every;  ///< in time; absent: fields only at the end, history 1000 rows
+      history_every;              ///< in time; absent: fields only at the end, history 1000 rows
+  std::vector<double> fields_at;  ///< in time, beside the above
   bool compress = true;
 };
 

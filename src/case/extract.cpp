@@ -176,7 +176,10 @@ ProbeSpec probe_of(const View& view) {
 
 OutputSpec output_of(const View& view) {
   OutputSpec spec;
-  if (const auto fields = view.table("fields")) spec.fields_every = fields->get<double>("every");
+  if (const auto fields = view.table("fields")) {
+    spec.fields_every = fields->get<double>("every");
+    spec.fields_at = fields->get<std::vector<double>>("at").value_or(std::vector<double>{});
+  }
   if (const auto history = view.table("history")) spec.history_every = history->get<double>("every");
   spec.compress = view.get<bool>("compress").value();
   return spec;

@@ -45,6 +45,11 @@ bool in_range(const Key& key, const std::optional<double>& value) {
   return value && key.range.contains(*value);
 }
 
+bool are_numbers(const Key& key, const toml::node& node) {
+  const auto list = convert_list<double>(node);
+  return list && std::all_of(list->begin(), list->end(), [&](double x) { return in_range(key, x); });
+}
+
 bool are_counts(const Key& key, const toml::node& node) {
   const auto counts = convert_list<long>(node);
   return counts && (counts->size() == 2 || counts->size() == 3) &&
@@ -90,6 +95,8 @@ bool acceptable(const Key& key, const toml::node& node) {
       return node.is_boolean();
     case Type::number:
       return in_range(key, convert<double>(node));
+    case Type::numbers:
+      return are_numbers(key, node);
     case Type::integer:
       return node.is_integer() && in_range(key, convert<double>(node));
     case Type::vector:

@@ -241,6 +241,7 @@ const std::vector<Table>& key_table() {
                                          analysis_table(),
                                          probes_table(),
                                          output_table(),
+                                         fields_table(),
                                          every_table()};
   return tables;
 }

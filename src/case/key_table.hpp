@@ -40,6 +40,7 @@ Table initial_table();
 Table analysis_table();
 Table probes_table();
 Table output_table();
+Table fields_table();
 Table every_table();
 
 }  // namespace geist

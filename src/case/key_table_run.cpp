@@ -193,10 +193,20 @@ Table output_table() {
       "output",
       "[output]",
       "What is written. Fields are for ParaView; the history has the probes, the energies and the residual.",
-      {within(Type::table, "fields", "every", "How often fields are written; without it, at the end only."),
+      {within(Type::table, "fields", "fields", "When fields are written; without it, at the end only."),
        within(Type::table, "history", "every",
               "How often a row of the history is written; without it, about 1000 rows."),
        boolean("compress", "Whether field files are compressed.").otherwise("true")}};
+}
+
+Table fields_table() {
+  return {
+      "fields",
+      "{ every = …, at = […] }",
+      "When fields are written, besides the beginning and the end.",
+      {number("every", "time", "Time from one picture to the next.").above(0),
+       value(Type::numbers, "at", "time", "Instants: the first step at or after each.").range_is({0, {}})},
+      {{false, {"every", "at"}}}};
 }
 
 Table every_table() {

@@ -77,6 +77,8 @@ std::string words(const Key& key) {
       return "true or false";
     case Type::number:
       return "a number";
+    case Type::numbers:
+      return "a list of numbers, each";
     case Type::integer:
       return "a whole number";
     case Type::vector:

@@ -17,6 +17,7 @@ enum class Type {
   pair,       ///< two of these names, which may be the same; or "all"
   boolean,    ///< true or false
   number,     ///< finite; a whole number is welcome
+  numbers,    ///< list of at least one number
   integer,    ///< whole number
   vector,     ///< [x, y, z]
   box,        ///< [[x, y, z], [x, y, z]], low corner first

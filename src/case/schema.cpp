@@ -61,6 +61,8 @@ Json shape_of(const Key& key) {
       return {{"type", "boolean"}};
     case Type::number:
       return limited("number", key.range);
+    case Type::numbers:
+      return list(limited("number", key.range), 1, 0);
     case Type::integer:
       return limited("integer", key.range);
     case Type::vector:

@@ -58,6 +58,15 @@ Contacts::Contacts(const Model& model, LawTable laws) : laws_(std::move(laws)) {
   }
   surface_ = make_surface(model, laws_.touching());
   contactors_ = make_contactors(model, surface_, laws_, places_);
+  find_thinnest();
+  const std::size_t n = places_.list.size();
+  force_.resize(n), moment_.resize(n), marked_.resize(n);
+  reported_.resize(laws_.regions() * laws_.regions());
+  places_.follow(model);
+  search_again(model);
+}
+
+void Contacts::find_thinnest() {
   least_.resize(laws_.regions(), {-1, -1, 0, 0, 0});
   for (const Contactor& c : contactors_) {
     skin_ = skin_ == 0 ? reach(c) / 2 : std::min(skin_, reach(c) / 2);
@@ -67,11 +76,6 @@ Contacts::Contacts(const Model& model, LawTable laws) : laws_(std::move(laws)) {
   for (const SurfaceFacet& facet : surface_.facets)
     if (double& thinnest = thinnest_[facet.region]; thinnest == 0 || facet.depth < thinnest)
       thinnest = facet.depth;
-  const std::size_t n = places_.list.size();
-  force_.resize(n), moment_.resize(n), marked_.resize(n);
-  reported_.resize(laws_.regions() * laws_.regions());
-  places_.follow(model);
-  search_again(model);
 }
 
 void Contacts::find(const Model& model, double dt) {
@@ -113,40 +117,43 @@ void Contacts::meet(const Model& model, std::size_t pair, double dt) {
 void Contacts::meet_body(const Model& model, std::size_t number, double dt) {
   const Pair& pair = candidates_.pairs[number];
   const Contactor& c = contactors_[pair.contactor];
-  const Vec3 x = places_.x.vector(c.place);
   const std::span<const std::int32_t> facets(candidates_.facets.data() + pair.first,
                                              static_cast<std::size_t>(pair.count));
-  Probing probe{x, c.radius, reach(c), c.radius == 0 ? c.place : -1, {}};
+  Probing probe{places_.x.vector(c.place), c.radius, reach(c), c.radius == 0 ? c.place : -1, {}};
   if (!may_touch(surface_, places_.x, facets, probe)) return;
   if (c.radius == 0) probe.outward = area_vector(surface_, places_.x, c.place, c.region);
   Active& active = active_[number];
   active.touch = touch(surface_, places_.x, facets, probe);
   const Touch& t = active.touch;
   if (t.count == 0) return;
-  const SurfaceFacet& deepest = surface_.facets[t.point[0].facet];
-  const PairLaw& law = pair_laws_[laws_.at(c.region, deepest.region)];
+  const SurfaceFacet& facet = surface_.facets[t.point[0].facet];
+  const PairLaw& law = pair_laws_[laws_.at(c.region, facet.region)];
+  const Under under = under_touch(model, c, t);
+  const double seen = -dot(probe.outward, t.normal);  // of the node's area
+  const NormalStiffness k = spring(c, std::min(under.area, seen), {facet.region, 0, facet.depth});
+  active.response =
+      respond(law, {k, t.overlap, t.lambda_sum() / t.overlap, t.normal, under.velocity, under.inverse_mass},
+              dt, memory_[number]);
+}
+
+Contacts::Under Contacts::under_touch(const Model& model, const Contactor& c, const Touch& t) const {
   const auto [v, spin] = velocity_of(model, places_.list[c.place]);
+  Under under{v, inverse_mass_along(places_.inverse_mass.vector(c.place), t.normal), 0};
   const double lambda = t.lambda_sum();
-  Vec3 velocity = v;
-  double facet_area = 0;  // that of its nodes: no facet gets more than its own share of stiffness
-  double inverse_mass = inverse_mass_along(places_.inverse_mass.vector(c.place), t.normal);
   for (int i = 0; i < t.count; ++i) {
     const TouchPoint& p = t.point[i];
     const double share = p.lambda / lambda;
-    velocity += share * cross(spin, p.p - x);
+    under.velocity += share * cross(spin, p.p - places_.x.vector(c.place));
     for (int a = 0; a < 4; ++a) {
       const std::int32_t corner = surface_.facets[p.facet].corner[a];
       const double w = share * p.weight[a];
-      velocity -= w * velocity_of(model, places_.list[corner]).linear;
-      facet_area += w * surface_.node_area[corner];
-      inverse_mass += w * p.weight[a] * inverse_mass_along(places_.inverse_mass.vector(corner), t.normal);
+      under.velocity -= w * velocity_of(model, places_.list[corner]).linear;
+      under.area += w * surface_.node_area[corner];
+      under.inverse_mass +=
+          w * p.weight[a] * inverse_mass_along(places_.inverse_mass.vector(corner), t.normal);
     }
   }
-  const Opposite facet{deepest.region, 0, deepest.depth};
-  active.response = respond(law,
-                            {spring(c, std::min(facet_area, -dot(probe.outward, t.normal)), facet), t.overlap,
-                             lambda / t.overlap, t.normal, velocity, inverse_mass},
-                            dt, memory_[number]);
+  return under;
 }
 
 void Contacts::meet_particle(const Model& model, std::size_t number, double dt) {
@@ -169,8 +176,8 @@ void Contacts::meet_particle(const Model& model, std::size_t number, double dt) 
 }
 
 /// Two columns of material in series: for a particle the half of its cell, 4 r (λ + 2μ), and the same of the
-/// other side; for a node half an element's thickness on either side, over half of its area as seen from the
-/// other side (the other half of the stiffness comes from the other surface's nodes). Hertz: 4/3 E* √R*.
+/// other side; for a node half an element's thickness on either side, over half of `area` (the other half of
+/// the stiffness comes from the other surface's nodes). Hertz: 4/3 E* √R*.
 NormalStiffness Contacts::spring(const Contactor& c, double area, const Opposite& other) const {
   const PairLaw& pair = pair_laws_[laws_.at(c.region, other.region)];
   const double factor = pair.law.factor, own = layer_[c.region], theirs = layer_[other.region];

@@ -109,9 +109,18 @@ class Contacts {
     double radius, depth;
   };
 
+  /// What a contactor and the facets that it touches do at the contact.
+  struct Under {
+    Vec3 velocity;        ///< of the contactor relative to the facets
+    double inverse_mass;  ///< 1/m*
+    double area;          ///< of the facets' nodes: no facet gets more than its own share of stiffness
+  };
+
+  void find_thinnest();
   void search_again(const Model& model);
   void meet(const Model& model, std::size_t pair, double dt);
   void meet_body(const Model& model, std::size_t pair, double dt);
+  Under under_touch(const Model& model, const Contactor& c, const Touch& t) const;
   void meet_particle(const Model& model, std::size_t pair, double dt);
   double largest_stiffness(const Contactor& c, std::int32_t other) const;
   NormalStiffness spring(const Contactor& c, double area, const Opposite& other) const;

@@ -120,7 +120,7 @@ RunPlan plan_of(const Case& input, const ExecuteOptions& options) {
   plan.end_time = input.analysis.duration;
   plan.max_steps = input.analysis.max_steps;
   plan.history_every = input.output.history_every.value_or(0);
-  plan.fields_every = input.output.fields_every.value_or(0);
+  plan.fields_every = input.output.fields_every.value_or(0), plan.fields_at = input.output.fields_at;
   plan.balance_tolerance = input.analysis.balance_tolerance;
   plan.stop = options.stop;
   return plan;

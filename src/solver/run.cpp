@@ -9,20 +9,22 @@
 namespace geist {
 namespace {
 
-/// Steps at which something that recurs in time is due: the first step at or after each multiple of `every`.
+/// Steps at which something is due: the first at or after each multiple of `every`, and at or after each of
+/// `at`.
 class Schedule {
  public:
-  Schedule(double every, double dt) : every_(every), dt_(dt) {}
+  Schedule(double every, double dt, std::vector<double> at = {})
+      : every_(every), dt_(dt), at_(std::move(at)) {}
   bool due(long step) const {
-    if (every_ <= 0) return false;
-    const auto multiples = [this](long n) {
-      return std::floor(static_cast<double>(n) * dt_ / every_ * (1 + 1e-12));
-    };
-    return multiples(step) > multiples(step - 1);
+    const double late = 1 + 1e-12, now = static_cast<double>(step) * dt_ * late,
+                 before = static_cast<double>(step - 1) * dt_ * late;
+    if (std::any_of(at_.begin(), at_.end(), [=](double t) { return before < t && t <= now; })) return true;
+    return every_ > 0 && std::floor(now / every_) > std::floor(before / every_);
   }
 
  private:
   double every_, dt_;
+  std::vector<double> at_;
 };
 
 double history_interval(const RunPlan& plan, double dt) {
@@ -83,7 +85,7 @@ class Runner {
         plan_(plan),
         observers_(observers),
         history_(history_interval(plan, sim.dt), sim.dt),
-        fields_(plan.fields_every, sim.dt),
+        fields_(plan.fields_every, sim.dt, plan.fields_at),
         steady_from_(steady_from(sim)) {}
 
   Outcome run() {

@@ -34,6 +34,7 @@ struct RunPlan {
   double history_every =
       0;  ///< in time; 0: a thousand rows of a dynamic run, every check of a quasi-static one
   double fields_every = 0;          ///< in time; 0: the beginning and the end
+  std::vector<double> fields_at;    ///< in time, beside the above
   long check_every = 100;           ///< steps between ledgers, whether a row is due or not
   double balance_tolerance = 0.05;  ///< |balance| / largest sum of energies so far, to stop at
   const volatile std::sig_atomic_t* stop = nullptr;  ///< becomes non-zero when the run shall end

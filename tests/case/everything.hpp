@@ -131,7 +131,7 @@ quantity = "contact-force"
 component = "x"
 
 [output]
-fields = { every = 1e-3 }
+fields = { every = 1e-3, at = [2e-4, 5e-4] }
 history = { every = 1e-4 }
 compress = false
 )";

@@ -40,6 +40,21 @@ TEST(Run, RowsAreDueAtTheFirstStepAtOrAfterEachMultiple) {
   EXPECT_EQ(notes.ledgers, (std::vector<long>{0, 3, 4, 5, 6, 8, 10, 11}));
 }
 
+TEST(Run, PicturesAreDueAtGivenInstantsToo) {
+  Built built = build_text(column(standing + std::string(moving) + dynamic(1)));
+  const double dt = built.simulation.dt;
+  RunPlan plan = dynamic_plan(10 * dt);
+  plan.fields_at = {6.5 * dt, 3 * dt, 100 * dt};
+  Notes notes;
+  run(built.simulation, plan, {&notes});
+  EXPECT_EQ(notes.pictures, (std::vector<long>{0, 3, 7, 10}));
+  plan.fields_every = 4 * dt;
+  Built again = build_text(column(standing + std::string(moving) + dynamic(1)));
+  Notes both;
+  run(again.simulation, plan, {&both});
+  EXPECT_EQ(both.pictures, (std::vector<long>{0, 3, 4, 7, 8, 10}));
+}
+
 TEST(Run, TheEndIsReportedOnce) {
   Built built = build_text(column(standing + std::string(moving) + dynamic(1)));
   RunPlan plan = dynamic_plan(10 * built.simulation.dt);

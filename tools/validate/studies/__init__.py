@@ -1,4 +1,5 @@
 """The papers' cases, in the order of the page."""
-from tools.validate.studies import dynamic_beam, region_size, rotation, size_ratio, wide_beam
+from tools.validate.studies import ball_on_plate, dynamic_beam, region_size, rotation, size_ratio, wide_beam
 
-STUDIES = [wide_beam.STUDY, size_ratio.STUDY, region_size.STUDY, rotation.STUDY, dynamic_beam.STUDY]
+STUDIES = [wide_beam.STUDY, size_ratio.STUDY, region_size.STUDY, rotation.STUDY, dynamic_beam.STUDY,
+           ball_on_plate.STUDY]
