@@ -113,9 +113,13 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
     supports.apply(model, dt, g, arrived);
   }
   account(sums, kick_dt, arrived);
-  // Trapezoidal rule on Σ α m v². Hourglass control is reckoned with v^{n−½}, so that its work over the step
-  // from n − 1 is ½ Δt (v^{n−3/2} + v^{n−½})·C v^{n−½}, which from the powers at both is known to second
-  // order.
+  account_damping(power, arrived);
+}
+
+/// Trapezoidal rule on Σ α m v². Hourglass control is reckoned with v^{n−½}, so that its work over the step
+/// from n − 1 is ½ Δt (v^{n−3/2} + v^{n−½})·C v^{n−½}, which from the powers at both is known to second
+/// order.
+void Simulation::account_damping(double power, bool arrived) {
   const double damping_power = 2 * alpha * kinetic_;
   if (arrived)
     damping_work_ += dt * (0.5 * (damping_power_ + damping_power) + 0.25 * hourglass_power_ + 0.75 * power);

@@ -53,6 +53,7 @@ class Simulation {
   de::KickSums kick_touched(const de::Kick& kick);
   void keep_velocities();
   void account(const de::KickSums& sums, double kick_dt, bool arrived);
+  void account_damping(double hourglass_power, bool arrived);
 
   double damping_work_ = 0;  ///< of α and of viscous hourglass control
   double damping_power_ = 0, hourglass_power_ = 0;

@@ -19,6 +19,7 @@ namespace geist::verification {
 namespace {
 
 const std::map<std::string, std::string> golden{
+    {"ball-on-plate", "4dadfe2430800440"},
     {"beam", "4d9bc8526500b6f3"},
     {"wide-beam", "53222637c487b411"},
 };

@@ -19,7 +19,9 @@ MODELS = {"all hexahedra": HEXAHEDRA, "all particles": PARTICLES, "coupled": COU
 STYLES = {"all hexahedra": "-", "all particles": "--", "coupled": "-"}
 REPORTED = {"lowest": 0.942, "highest": 2.022}  # ms
 COARSE = {"all hexahedra": -0.5556, "coupled": -0.5712}  # mm, of the short set
-REASON = ""
+REASON = ("The ball has left, and the plate vibrates by itself with a thirtieth of what the impact gave it. The peak is that of "
+          "this instant; that the softer plates of particles let go of the ball some hundredths of a millisecond apart shows in "
+          "it. Of the impact's own peak it is less than 1 %.")
 SOURCE = "journal paper, section 4, ball-plane impact, Figs. 13 to 16"
 
 
@@ -107,27 +109,26 @@ def tables(results: Results) -> list[Table]:
     return shown + [Table("Finer models, as far as the lowest point", head, finer)] if finer else shown
 
 
-def claims_on_one(results: Results, model: str, known: tuple[bool, bool, bool]) -> list[Claim]:
+def claims_on_one(results: Results, model: str) -> list[Claim]:
     fe, ours = results["all hexahedra"], results[model]
-    apart = {
-        "The contact force histories produced from the three models […] are in good agreement":
-            history_apart(ours, fe, "force"),
-        "the displacement histories of a central particle or a node of the plane […] agree with each other well":
-            history_apart(ours, fe, "centre"),
-        "the displacement distributions of the three models at two time instants […] a good agreement can be observed":
-            max(field_apart(ours, fe, time) for time in REPORTED.values()),
-    }
+    fields = "the displacement distributions of the three models at two time instants […] a good agreement can be observed"
+    apart = [
+        ("The contact force histories produced from the three models […] are in good agreement", "",
+         history_apart(ours, fe, "force"), True),
+        ("the displacement histories of a central particle or a node of the plane […] agree with each other well", "",
+         history_apart(ours, fe, "centre"), True),
+        (fields, ", lowest point", field_apart(ours, fe, REPORTED["lowest"]), True),
+        (fields, ", highest point", field_apart(ours, fe, REPORTED["highest"]), False),
+    ]
     return [Claim(SOURCE, quote, "root mean square difference from the plate of hexahedra below 5 % of the peak", value,
-                  Band(0, SAME_CURVE), f"{100 * value:.1f} % of the peak apart", expected, REASON if not expected else "",
-                  about=f"FE, {model}")
-            for (quote, value), expected in zip(apart.items(), known)]
+                  Band(0, SAME_CURVE), f"{100 * value:.1f} % of the peak apart", known, "" if known else REASON,
+                  about=f"FE, {model}{point}") for quote, point, value, known in apart]
 
 
 def claims(results: Results) -> list[Claim]:
     if "all particles" not in results:
         return []
-    return claims_on_one(results, "coupled", (True, True, True)) + \
-        claims_on_one(results, "all particles", (True, True, True))
+    return claims_on_one(results, "coupled") + claims_on_one(results, "all particles")
 
 
 def checks(results: Results) -> list[Check]:
