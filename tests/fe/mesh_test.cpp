@@ -13,7 +13,8 @@ namespace {
 using namespace testing;
 
 const Material material{"m", 2.3, 10, 0.3};
-const std::vector<std::string> names{"full", "selective-reduced", "one-point", "one-point-viscous"};
+const std::vector<std::string> names{"full", "selective-reduced", "assumed-strain", "one-point",
+                                     "one-point-viscous"};
 
 const Mat3 gradient{{Vec3{0.1, 0.4, -0.2}, Vec3{0.3, -0.5, 0.6}, Vec3{0.2, 0.1, 0.7}}};
 
@@ -81,7 +82,7 @@ TEST(Mesh, MassesAreThoseOfTheirVolume) {
 }
 
 TEST(Mesh, EnergiesAreHalfTheWorkOfTheForces) {
-  for (const std::string name : {"full", "selective-reduced", "one-point"}) {
+  for (const std::string name : {"full", "selective-reduced", "assumed-strain", "one-point"}) {
     Mesh mesh = box({3, 3, 3}, {1, 1, 1}, name, material, scatter_inside(0.07));  // 27: last block not full
     set_random(mesh);
     internal_forces(mesh);
