@@ -200,8 +200,8 @@ inline double square_of_gradient(const hex8::Corners& x) {
   return s * hex8::volume(x) * hex8::volume(x);
 }
 
-/// K of a cantilever along x, clamped at x = 0.
-inline Eigen::SparseMatrix<double> clamped_stiffness(const Mesh& mesh) {
+/// K of a mesh, with 1 on the diagonal for nodes that are not free.
+inline Eigen::SparseMatrix<double> stiffness_with_held(const Mesh& mesh, const std::vector<int>& free) {
   const HexRegion& region = mesh.regions[0];
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
@@ -211,12 +211,12 @@ inline Eigen::SparseMatrix<double> clamped_stiffness(const Mesh& mesh) {
     const auto& nodes = mesh.elements[e];
     for (int p = 0; p < 24; ++p)
       for (int q = 0; q < 24; ++q)
-        if (mesh.points[nodes[p / 3]].x > 0 && mesh.points[nodes[q / 3]].x > 0)
+        if (free[nodes[p / 3]] && free[nodes[q / 3]])
           entries.emplace_back(3 * nodes[p / 3] + p % 3, 3 * nodes[q / 3] + q % 3, K(p, q));
   }
   const int count = static_cast<int>(mesh.nodes());
-  for (int i = 0; i < count; ++i)
-    for (int d = 0; d < 3 && mesh.points[i].x == 0; ++d) entries.emplace_back(3 * i + d, 3 * i + d, 1.0);
+  for (int i = 0; i < 3 * count; ++i)
+    if (!free[i / 3]) entries.emplace_back(i, i, 1.0);
   Eigen::SparseMatrix<double> A(3 * count, 3 * count);
   A.setFromTriplets(entries.begin(), entries.end());
   return A;
@@ -229,13 +229,16 @@ inline double tip_deflection(const Mesh& mesh, int d) {
   for (const Vec3 X : mesh.points)
     for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], X[i]), high[i] = std::max(high[i], X[i]);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.nodes()));
+  std::vector<int> free(mesh.nodes(), 1);
   for (std::size_t n = 0; n < mesh.nodes(); ++n) {
     const Vec3 X = mesh.points[n];
+    if (X.x == 0) free[n] = 0;
     const bool side = X.y == low.y || X.y == high.y, top = X.z == low.z || X.z == high.z;
     if (X.x == high.x) load(3 * static_cast<Eigen::Index>(n) + d) = (side ? 0.5 : 1) * (top ? 0.5 : 1);
   }
   load /= load.sum();
-  return load.dot(Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(clamped_stiffness(mesh)).solve(load));
+  const Eigen::SparseMatrix<double> K = stiffness_with_held(mesh, free);
+  return load.dot(Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(K).solve(load));
 }
 
 }  // namespace geist::fe::testing
