@@ -5,29 +5,27 @@
 // incompatible modes 1 − ξ_j² of Taylor, Beresford & Wilson, IJNME 10 (1976) 1211–1219, and a dilatation with
 // each of ηζ, ζξ, ξη), taken on the parallelepiped of the centre's Jacobian as Puso, IJNME 49 (2000)
 // 1029–1064, does, and condensed by hand. (Belytschko & Bindeman, CMAME 105 (1993) 225–260, assume such
-// strains instead of deriving them.) Beyond the uniform strain element's V w(L) the motions q_k
-// (uniform_strain.hpp) have strains
+// strains instead of deriving them.) To the uniform strain element's V w(L) it adds the energy of what its q
+// (uniform_strain.hpp) strain. With q_1, q_2, q_3 for the patterns ηζ, ζξ, ξη, edges c_j, reciprocal axes aʲ
+// and (n, i, j) cyclic that is
 //
-//   sym Σ_n ξ_n ⅛ (q_j ⊗ aⁱ + q_i ⊗ aʲ) + sym ⅛ q_7 ⊗ (ηζ a¹ + ζξ a² + ξη a³),   a: reciprocal axes, (n, i,
-//   j) cyclic
+//   ⅛ sym [ Σ_n ξ_n (q_j ⊗ aⁱ + q_i ⊗ aʲ) + q_7 ⊗ (ηζ a¹ + ζξ a² + ξη a³) ]
 //
-// (q_i is that of the pattern without ξ_i), whose terms do not work on each other.
+// whose terms do not work on each other.
 //
-// * ξ_n: the incompatible mode −2 ξ_n α ⊗ aⁿ with free α relieves all traction on the plane across aⁿ. What
-// is left
-//   is plane stress in the plane of the edges c_i, c_j: with metric M_ab = c_a·c_b, strains e_ii = q_j·c_i,
-//   e_jj = q_i·c_j, e_ij = ½ (q_i·c_i + q_j·c_j) along these edges, D = det M,
+// Linear terms: the incompatible mode −2 ξ_n α ⊗ aⁿ with free α relieves all traction on the plane across aⁿ;
+// plane stress in the plane of c_i and c_j is left. With metric M_ab = c_a·c_b, D = M_ii M_jj − M_ij², and
+// strains along the edges e_ii = q_j·c_i, e_jj = q_i·c_j, 2 e_ij = q_i·c_i + q_j·c_j,
 //
-//     E_n = V/3 [½ E' t² − 2μ det e / D],   t = (M_jj e_ii + M_ii e_jj − 2 M_ij e_ij)/D,   E' = E/(1 − ν²)
+//   E_n = V/3 [½ E' t² − 2 μ det e/D],   t = (M_jj e_ii + M_ii e_jj − 2 M_ij e_ij)/D,   E' = E/(1 − ν²)
 //
-// * bilinear terms: a free dilatation with each relieves the pressure, the deviator is left; ⅛ aʲ = g_j/V,
-// hence
+// Bilinear terms: a free dilatation with each relieves the pressure, the deviator is left; ⅛ aʲ is g_j/V, so
 //
-//     E_7 = μ/(18 V) [|q_7|² Σ g_j·g_j + ⅓ Σ (q_7·g_j)²]
+//   E_7 = μ/(18 V) [|q_7|² Σ g_j·g_j + ⅓ Σ (q_7·g_j)²]
 //
 // All of these are invariants: no axes of the element's own are needed, and neither a rotation nor another
-// order of the corners changes the result but for rounding. E_n and E_7 are strain energies; they vanish only
-// with q = 0.
+// order of the corners changes the result but for rounding. E_n and E_7 are energies of strain; together they
+// vanish only with q = 0.
 #pragma once
 #include <string_view>
 
