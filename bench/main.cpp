@@ -18,7 +18,7 @@ struct Options {
   Effort effort{0, 0};
   int threads = 0;
   std::vector<int> edges;
-  std::vector<std::string> subjects{"lattice", "one-point", "selective-reduced", "full"};
+  std::vector<std::string> subjects{"lattice", "one-point", "assumed-strain", "selective-reduced", "full"};
   std::string out;
 };
 
@@ -30,7 +30,7 @@ void add_options(CLI::App& app, Options& o) {
                  "go on for so many seconds in search of as many quiet rounds");
   app.add_option("--threads", o.threads, "compare one thread with this many (default: all processors)");
   app.add_option("--edges", o.edges, "particles or elements along an edge (40 100; quick: 40)");
-  app.add_option("--subjects", o.subjects, "lattice, one-point, selective-reduced, full");
+  app.add_option("--subjects", o.subjects, "lattice, one-point, assumed-strain, selective-reduced, full");
   app.add_option("--out", o.out, "write FILE.csv and FILE.json")->type_name("FILE");
 }
 

@@ -31,7 +31,7 @@ struct HexahedraSpec {
   Body body;  ///< a block is given by its corners in VTK's order; `box` in the file is the special case
   Gradings gradings;
   std::vector<Box> minus;
-  std::string formulation;  ///< "full", "selective-reduced", "one-point"
+  std::string formulation;  ///< "selective-reduced", "full", "assumed-strain", "one-point"
   std::string hourglass;    ///< "stiffness", "viscous"; for "one-point"
   double hourglass_coefficient;
 };

@@ -101,9 +101,11 @@ std::vector<Key> region_details() {
       within(Type::tables, "minus", "shape",
              "What is cut out of the boxes: sites with their centre in it stay empty.")
           .when(lattice),
-      choice("formulation", {"selective-reduced", "full", "one-point"},
-             "Integration of the hexahedra: selective-reduced (the volumetric part at one point, the rest at "
-             "2 × 2 × 2), full (all at 2 × 2 × 2), or one-point with hourglass control.")
+      choice(
+          "formulation", {"selective-reduced", "full", "assumed-strain", "one-point"},
+          "Integration of the hexahedra: selective-reduced (the volumetric part at one point, the rest at "
+          "2 × 2 × 2), full (all at 2 × 2 × 2), assumed-strain (one point, stabilised without a coefficient, "
+          "exact in bending), or one-point with hourglass control.")
           .otherwise("\"selective-reduced\"")
           .when(hexahedra),
       choice("hourglass", {"stiffness", "viscous"}, "Form of the Flanagan–Belytschko hourglass control.")

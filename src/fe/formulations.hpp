@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "fe/assumed_strain.hpp"
 #include "fe/full.hpp"
 #include "fe/one_point.hpp"
 #include "fe/selective_reduced.hpp"
@@ -14,7 +15,7 @@ namespace geist::fe {
 template <class... F>
 struct FormulationList {};
 
-using Formulations = FormulationList<Full, SelectiveReduced, OnePoint, OnePointViscous>;
+using Formulations = FormulationList<Full, SelectiveReduced, AssumedStrain, OnePoint, OnePointViscous>;
 
 namespace detail {
 

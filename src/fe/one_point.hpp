@@ -1,12 +1,7 @@
-// One-point integration with hourglass control: the uniform strain hexahedron of Flanagan & Belytschko, IJNME
-// 17 (1981) 679–706.
+// One-point integration with the hourglass control of Flanagan & Belytschko, IJNME 17 (1981) 679–706.
 //
-// Stress from the mean gradient (modes.hpp), E = V w(L). It leaves twelve motions without energy; what the
-// four patterns h_k = ηζ, ζξ, ξη, ξηζ do beyond a linear field is measured by
-//
-//   q_k = γ_k · u = û_k − L c_k,   γ_ka = h_k(ξ_a) − (1/V) c_k · B_a        zero for every linear field
-//
-// and resisted, with γ/√8 of unit length, by S γγᵀ/8:
+// The motions q_k beyond the uniform strain element's (uniform_strain.hpp) are resisted, with γ/√8 of unit
+// length, by S γγᵀ/8:
 //
 //   "one-point": a stiffness, S = ½ κ (λ+2μ) B·B/V, B·B = Σ_a B_a·B_a = 8 Σ_k g_k·g_k. ω² = 8 (λ+2μ)
 //   B·B/(ρV²) bounds the uniform strain element's frequencies, S/(ρV/8) is κ/2 of that. Energy ½ (S/8) Σ_k
@@ -16,14 +11,12 @@
 //   a cube's face, as V^⅔ is, where others take 2 κ ρ c V^⅔. It dissipates (S/8) Σ_k q̇_k² and stores nothing:
 //   the twelve motions are slowed down, not resisted, so a static load may move them ever further.
 //
-// Being linear in q both kinds are proper: forces derive from the energy, are orthogonal to rigid and linear
-// motions, and pass the patch test. κ is dimensionless, 0.05 usual; κ = 0 leaves the bare element.
+// κ is dimensionless, 0.05 usual; κ = 0 leaves the bare element.
 #pragma once
 #include <cmath>
 #include <string_view>
 
-#include "fe/hooke.hpp"
-#include "fe/modes.hpp"
+#include "fe/uniform_strain.hpp"
 
 namespace geist::fe {
 
@@ -34,46 +27,6 @@ GEIST_INLINE Pack root(Pack a) {
   for (int l = 0; l < lanes; ++l) r[l] = std::sqrt(a[l]);
   return r;
 }
-
-/// What both kinds of control share.
-template <class T>
-struct UniformStrain {
-  Modes<T> x;  ///< modes c_k of X
-  MeanGradient<T> m;
-
-  GEIST_INLINE explicit UniformStrain(const Corners<T>& X) : x(to_modes(X)), m(mean_gradient(x)) {}
-
-  /// Σ_k g_k·g_k = B·B/8.
-  GEIST_INLINE T square() const {
-    T s = dot(m.g[1], m.g[1]);
-    for (int k = 2; k < 7; ++k) s = s + dot(m.g[k], m.g[k]);
-    return s;
-  }
-
-  /// q[k − 4] = û_k − L c_k for the hourglass patterns k = 4 … 7.
-  GEIST_INLINE void hourglass(const Modes<T>& u, const T (&L)[3][3], T (&q)[4][3]) const {
-    for (int k = 4; k < 8; ++k)
-      for (int i = 0; i < 3; ++i) q[k - 4][i] = u[k][i] - dot(L[i], x[k]);
-  }
-
-  /// Forces on the corners of a stress σ and of hourglass resistances Q_k: F_k = −σ g_k − Q·γ.
-  GEIST_INLINE void forces(const T (&sigma)[3][3], const T (&Q)[4][3], Corners<T>& f) const {
-    T P[3][3];  // (1/V) Σ Q_k ⊗ c_k − σ
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        T s = Q[0][i] * x[4][j];
-        for (int k = 1; k < 4; ++k) s = fma(Q[k][i], x[4 + k][j], s);
-        P[i][j] = fma(s, m.inverse_volume, -sigma[i][j]);
-      }
-    Modes<T> F;
-    for (int i = 0; i < 3; ++i) {
-      for (int k = 1; k < 7; ++k) F[k][i] = dot(P[i], m.g[k]);
-      for (int k = 4; k < 7; ++k) F[k][i] = F[k][i] - Q[k - 4][i];
-      F[7][i] = -Q[3][i];
-    }
-    to_corners(F, f);
-  }
-};
 
 /// Σ_k q_k².
 template <class T>

@@ -58,7 +58,8 @@ constexpr Malformed values[] = {
      "divisions = [4, 4, 4]\nformulation = \"reduced\"",
      14,
      15,
-     {"'formulation' must be \"selective-reduced\", \"full\" or \"one-point\", not \"reduced\""}},
+     {"'formulation' must be \"selective-reduced\", \"full\", \"assumed-strain\" or \"one-point\", not "
+      "\"reduced\""}},
     {"HourglassCoefficientTooLarge",
      "divisions = [4, 4, 4]",
      "divisions = [4, 4, 4]\nformulation = \"one-point\"\nhourglass_coefficient = 5",

@@ -124,6 +124,49 @@ TYPED_TEST(Formulation, OnlyRigidMotionsAreFree) {
   }
 }
 
+/// Corner a of a turned element is corner order[a] of the first: about ζ by a right angle, and about the
+/// diagonal through corners 0 and 6 by 120°. Together they make all 24 orders.
+constexpr int turns[2][8] = {{1, 2, 3, 0, 5, 6, 7, 4}, {0, 3, 7, 4, 1, 2, 6, 5}};
+
+TYPED_TEST(Formulation, OrderOfCornersDoesNotMatter) {
+  const Outlined<TypeParam> law;
+  const hex8::Corners x = distorted(7);
+  const Corners<double> u = random_field(8), v = random_field(9);
+  Corners<double> f, turned_f;
+  law.forces(to_array(x), u, v, f);
+  for (const auto& order : turns) {
+    hex8::Corners turned_x;
+    Corners<double> turned_u, turned_v;
+    for (int a = 0; a < 8; ++a) {
+      turned_x[a] = x[order[a]];
+      for (int i = 0; i < 3; ++i) turned_u[a][i] = u[order[a]][i], turned_v[a][i] = v[order[a]][i];
+    }
+    law.forces(to_array(turned_x), turned_u, turned_v, turned_f);
+    for (int a = 0; a < 8; ++a)
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(turned_f[a][i], f[order[a]][i], 2e-14);
+  }
+}
+
+Corners<double> turned(const Mat3& R, const Corners<double>& u) {
+  Corners<double> t;
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) t[a][i] = R[i].x * u[a][0] + R[i].y * u[a][1] + R[i].z * u[a][2];
+  return t;
+}
+
+TYPED_TEST(Formulation, ForcesTurnWithTheElement) {
+  const Outlined<TypeParam> law;
+  const double t = 1.0 / 3;
+  const Mat3 R{{t * Vec3{2, -1, 2}, t * Vec3{2, 2, -1}, t * Vec3{-1, 2, 2}}};
+  const Corners<double> X = to_array(distorted(7)), u = random_field(8), v = random_field(9);
+  Corners<double> f, found;
+  law.forces(X, u, v, f);
+  law.forces(turned(R, X), turned(R, u), turned(R, v), found);
+  const Corners<double> expected = turned(R, f);
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[a][i], expected[a][i], 2e-14);
+}
+
 TYPED_TEST(Formulation, EightLanesAreEightScalars) {
   const Outlined<TypeParam> law;
   Corners<Pack> X, u, v, f;

@@ -69,7 +69,7 @@ TEST(Formulations, WithoutControlTwelveMotionsAreFree) {
 }
 
 TEST(Formulations, NamesAreListedAndUnknownOnesRefused) {
-  EXPECT_EQ(formulation_names(), "full, selective-reduced, one-point, one-point-viscous");
+  EXPECT_EQ(formulation_names(), "full, selective-reduced, assumed-strain, one-point, one-point-viscous");
   std::string seen;
   visit_formulation("one-point", steel_like, [&](auto f) { seen = decltype(f)::name; });
   EXPECT_EQ(seen, "one-point");

@@ -12,7 +12,8 @@ using namespace testing;
 using Eigen::MatrixXd;
 
 const Material material{"m", 2.3, 10, 0.3};
-const std::vector<std::string> names{"full", "selective-reduced", "one-point", "one-point-viscous"};
+const std::vector<std::string> names{"full", "selective-reduced", "assumed-strain", "one-point",
+                                     "one-point-viscous"};
 
 /// Column d of K (from u) or C (from v) of a mesh, by its forces.
 MatrixXd assembled(Mesh& mesh, Field<3> Mesh::*field) {

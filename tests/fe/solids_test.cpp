@@ -27,7 +27,7 @@ Mesh mesh_with(const Body& body, const std::string& formulation) {
 
 std::vector<Mesh> round_bodies() {
   std::vector<Mesh> all;
-  for (const char* formulation : {"full", "selective-reduced", "one-point"}) {
+  for (const char* formulation : {"full", "selective-reduced", "assumed-strain", "one-point"}) {
     all.push_back(mesh_with(BallBody{{{0.1, 0.2, 0.3}, 1}, 6, 3}, formulation));
     all.push_back(mesh_with(CylinderBody{{{1, 0, 0}, {0, 0, 2}, 1}, 6, 3, 4}, formulation));
   }

@@ -6,8 +6,11 @@
 
 #include "fe/elements.hpp"
 #include "fe/formulations.hpp"
+#include "fe/parameters.hpp"
 #include "fe/stiffness.hpp"
 #include "geometry/hex8.hpp"
+
+#include <Eigen/SparseCholesky>
 
 namespace geist::fe::testing {
 
@@ -195,6 +198,47 @@ inline double square_of_gradient(const hex8::Corners& x) {
   double s = 0;
   for (Vec3 b : mean_position_gradient(x)) s += dot(b, b);
   return s * hex8::volume(x) * hex8::volume(x);
+}
+
+/// K of a mesh, with 1 on the diagonal for nodes that are not free.
+inline Eigen::SparseMatrix<double> stiffness_with_held(const Mesh& mesh, const std::vector<int>& free) {
+  const HexRegion& region = mesh.regions[0];
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    Matrix24 K;
+    visit_formulation(region.formulation, parameters(region),
+                      [&](auto law) { K = stiffness_matrix(law, to_array(hex8::corners(mesh, e))); });
+    const auto& nodes = mesh.elements[e];
+    for (int p = 0; p < 24; ++p)
+      for (int q = 0; q < 24; ++q)
+        if (free[nodes[p / 3]] && free[nodes[q / 3]])
+          entries.emplace_back(3 * nodes[p / 3] + p % 3, 3 * nodes[q / 3] + q % 3, K(p, q));
+  }
+  const int count = static_cast<int>(mesh.nodes());
+  for (int i = 0; i < 3 * count; ++i)
+    if (!free[i / 3]) entries.emplace_back(i, i, 1.0);
+  Eigen::SparseMatrix<double> A(3 * count, 3 * count);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+/// Its deflection under a unit force in direction d, spread by tributary area over an end face of equal
+/// facets: the mean over that face, weighted alike.
+inline double tip_deflection(const Mesh& mesh, int d) {
+  Vec3 low = mesh.points[0], high = low;
+  for (const Vec3 X : mesh.points)
+    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], X[i]), high[i] = std::max(high[i], X[i]);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.nodes()));
+  std::vector<int> free(mesh.nodes(), 1);
+  for (std::size_t n = 0; n < mesh.nodes(); ++n) {
+    const Vec3 X = mesh.points[n];
+    if (X.x == 0) free[n] = 0;
+    const bool side = X.y == low.y || X.y == high.y, top = X.z == low.z || X.z == high.z;
+    if (X.x == high.x) load(3 * static_cast<Eigen::Index>(n) + d) = (side ? 0.5 : 1) * (top ? 0.5 : 1);
+  }
+  load /= load.sum();
+  const Eigen::SparseMatrix<double> K = stiffness_with_held(mesh, free);
+  return load.dot(Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(K).solve(load));
 }
 
 }  // namespace geist::fe::testing

@@ -114,7 +114,7 @@ TEST(Stability, BoundForSeveralSizesOfParticles) {
 }
 
 TEST(Stability, BoundForEveryFormulation) {
-  for (const std::string formulation : {"full", "one-point"})
+  for (const std::string formulation : {"full", "assumed-strain", "one-point"})
     expect_safe(small_body(2, formulation), formulation);
 }
 

@@ -27,6 +27,13 @@ TEST(StaticBeam, AllHexahedraFull) {
                         "regions.middle.formulation=full", "regions.right.formulation=full"});
 }
 
+/// Four layers of one-point elements, 0.1 % short of the converged 2.0077 mm.
+TEST(StaticBeam, AllHexahedraAssumedStrain) {
+  expect_tip(2.005705,
+             {hexahedra("middle", 7, 13, "[12,4,4]"), "regions.left.formulation=assumed-strain",
+              "regions.middle.formulation=assumed-strain", "regions.right.formulation=assumed-strain"});
+}
+
 TEST(StaticBeam, CoupledAsShipped) { expect_tip(2.048088, {}); }
 
 /// Relaxed further, every digit of the references is met. They are means over the end face by tributary area,
