@@ -11,9 +11,31 @@
 namespace geist::bench {
 namespace {
 
+/// A name without its suffix, which says that contact is watched for.
+constexpr std::string_view watched = "+contact";
+bool is_watched(const std::string& name) { return name.ends_with(watched); }
+std::string material_of(const std::string& name) {
+  return is_watched(name) ? name.substr(0, name.size() - watched.size()) : name;
+}
+
+/// A small block beside the cube, too far to be touched, and contact between all.
+std::string watched_text(int edge) {
+  return fmt::format(R"([regions.block]
+type = "hexahedra"
+material = "polymer"
+box = [[0, 0, {0}], [4, 4, {1}]]
+divisions = [4, 4, 4]
+formulation = "one-point"
+[[contact]]
+between = "all"
+)",
+                     edge + 4, edge + 8);
+}
+
 /// The case: particles of diameter 1, or elements of edge 1. The spin makes everything move from the first
 /// step on, so that no number is zero or denormal.
-std::string case_text(const std::string& name, int edge) {
+std::string case_text(const std::string& full_name, int edge) {
+  const std::string name = material_of(full_name);
   const std::string region = name == "lattice" ? std::string("type = \"lattice\"\nradius = 0.5\n")
                                                : fmt::format(
                                                      "type = \"hexahedra\"\ndivisions = [{0}, {0}, {0}]\n"
@@ -41,7 +63,8 @@ spin = [0.01, 0.02, 0.03]
 type = "dynamic"
 duration = 1e6
 )",
-                     edge, region, edge * edge);
+                     edge, region, edge * edge) +
+         (is_watched(full_name) ? watched_text(edge) : std::string());
 }
 
 void add_lattice_kernels(Subject& s) {
@@ -59,7 +82,7 @@ void add_element_kernels(Subject& s) {
   s.working_set = mesh.corner_force.size() * sizeof(double) + mesh.blocks.size() * sizeof(HexBlock) +
                   (mesh.gather.size() + mesh.nodes()) * sizeof(std::int32_t) +
                   mesh.nodes() * (13 * sizeof(double) + 1);
-  s.kernels = {{"internal forces", [&] { fe::internal_forces(mesh); }, internal_forces(s.name)},
+  s.kernels = {{"internal forces", [&] { fe::internal_forces(mesh); }, internal_forces(material_of(s.name))},
                {"gather and kick",
                 [&] {
                   gather_internal_forces(mesh);
@@ -79,7 +102,7 @@ std::unique_ptr<Subject> make_subject(const std::string& name, int edge) {
   const double begin = now();
   subject->built = build(read_case_text(case_text(name, edge), "benchmark"));
   subject->build_seconds = now() - begin;
-  if (name == "lattice")
+  if (material_of(name) == "lattice")
     add_lattice_kernels(*subject);
   else
     add_element_kernels(*subject);

@@ -19,7 +19,7 @@ struct Kernel {
 
 /// A cube, one face held and the opposite one pulled, in smooth motion.
 struct Subject {
-  std::string name;             ///< "lattice", or a formulation of hexahedra
+  std::string name;             ///< "lattice", or a formulation of hexahedra; then "+contact" or nothing
   int edge = 0;                 ///< particles or elements along an edge
   double items = 0;             ///< particles or elements
   std::size_t working_set = 0;  ///< bytes that a step touches
@@ -32,6 +32,7 @@ struct Subject {
   std::string size() const;
 };
 
+/// A name that ends in "+contact": another body is near, all may touch, and nothing does.
 std::unique_ptr<Subject> make_subject(const std::string& name, int edge);
 
 }  // namespace geist::bench
