@@ -227,7 +227,7 @@ class Examiner {
     if (depth <= 0) return {};
     const Vec3 sideways = a.away() + depth * a.n;
     if (a.point.feature == Feature::face) return single(make_point(a, a.n, depth));
-    if (local_minimum(a) && !on_border(a))
+    if (local_minimum(a) && inside(a) && !on_border(a))
       return single(make_point(a, (-1 / a.distance) * a.away(), a.distance));
     const bool on_plane = norm(sideways) <= beside * std::sqrt(surface_.facets[a.facet].area);
     return on_plane ? single(make_point(a, a.n, depth)) : Touch{};

@@ -52,6 +52,16 @@ TEST(Node, BesideABodyTouchesNothing) {
         EXPECT_EQ(body.node(x, outward, 0.5).count, 0) << beside;
 }
 
+/// A body that rests on a larger one: nodes beside it lie behind its plane by next to nothing.
+TEST(Node, BesideABodyAndLevelWithItTouchesNothing) {
+  const Probed body = block({2, 2, 2});
+  for (const double depth : {1e-15, 1e-13, 1e-11, 1e-9})
+    for (const double beside : {0.05, 0.2, 0.4})
+      for (const Vec3 x : {Vec3{1 + beside, 0.5, 1 - depth}, Vec3{1 + beside, -beside, 1 - depth},
+                           Vec3{-0.5 * beside, 1 + beside, 1 - depth}})
+        EXPECT_EQ(body.node(x, {0, 0, -1}, 0.5).count, 0) << depth << ' ' << beside;
+}
+
 TEST(Node, ThatFacesAwayOrIsTooDeepIsIgnored) {
   const Probed body = block({2, 2, 2});
   EXPECT_EQ(body.node({0.4, 0.4, 0.95}, {0, 0, 1}, 0.2).count, 0);
