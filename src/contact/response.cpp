@@ -18,23 +18,21 @@ Vec3 turned(Vec3 tangent, Vec3 normal) {
 /// The friction force, by increments (Mindlin and Deresiewicz 1953 in the simplified form of Thornton,
 /// Cummins and Cleary 2013): −k_t Δs; where k_t has fallen with the normal force, what was there falls with
 /// it; then Coulomb's limit. Work is reckoned by the trapezoidal rule, as central differences conserve it;
-/// `friction` is what the springs do not hold.
+/// `friction` is what of it the springs do not hold.
 void slide(const Meeting& meeting, double k, double limit, double dt, Memory& memory, Response& response) {
   const Vec3 sliding = dt * (meeting.velocity - dot(meeting.velocity, meeting.normal) * meeting.normal);
-  Vec3 before = turned(memory.tangent, meeting.normal);
-  double lost = 0;
-  if (memory.stiffness > 0) {
-    const double held = square(before) / (2 * memory.stiffness);
-    if (k < memory.stiffness) before *= k / memory.stiffness;
-    lost = held - square(before) / (2 * k);
-  }
+  const Vec3 last = turned(memory.tangent, meeting.normal);
+  const bool falls = k < memory.stiffness;
+  const Vec3 before = falls ? (k / memory.stiffness) * last : last;
   Vec3 after = before - k * sliding;
   const double size = norm(after);
   if (size > limit) after *= limit / size;
   const Vec3 slip = sliding - (1 / k) * (before - after);
-  response.friction = lost - 0.5 * dot(before + after, slip);
+  response.friction = -0.5 * (dot(before + after, slip) + dot(last - before, sliding));
+  if (memory.stiffness > 0)
+    response.friction += square(last) / (2 * memory.stiffness) - square(before) / (2 * k);
   response.tangent = memory.tangent = after;
-  memory.stiffness = k;
+  memory.stiffness = k, memory.sliding = sliding;
   response.stored += square(after) / (2 * k);
 }
 
@@ -66,7 +64,9 @@ Response release(double dt, Memory& memory) {
   Response response;
   if (!memory.touching) return response;
   response.damping = 0.5 * dt * memory.damping * memory.normal_rate;
-  if (memory.stiffness > 0) response.friction = square(memory.tangent) / (2 * memory.stiffness);
+  if (memory.stiffness > 0)
+    response.friction =
+        square(memory.tangent) / (2 * memory.stiffness) - 0.5 * dot(memory.tangent, memory.sliding);
   memory = {};
   return response;
 }

@@ -18,6 +18,7 @@ struct PairLaw {
 struct Memory {
   Vec3 tangent;            ///< friction force on the contactor
   double stiffness = 0;    ///< tangential, of the last step
+  Vec3 sliding;            ///< in the last step, length
   double damping = 0;      ///< normal force of damping in the last step
   double normal_rate = 0;  ///< δ̇ of the last step
   bool touching = false;
@@ -44,7 +45,8 @@ struct Response {
 /// Force at the end of a step of length dt, in which the motion was meeting.velocity.
 Response respond(const PairLaw& law, const Meeting& meeting, double dt, Memory& memory);
 
-/// A contact that touches no more: what its springs held is lost.
+/// A contact that touches no more: what its springs held is lost. Its last forces act for half a step more,
+/// on a motion taken to be that of the last step.
 Response release(double dt, Memory& memory);
 
 }  // namespace geist::contact
