@@ -190,13 +190,14 @@ TEST(ChungOoi, Test2RigidPlane) {
   }
 }
 
-/// Forces never pull, and ζ is made for that: see damping_ratio. Damping lags by half a step, ζ π/2000.
+/// Forces never pull, and ζ is made for that: see damping_ratio. The first and the last step of a contact are
+/// cut somewhere, with a thousandth of the impulse at most, and little of that is lost.
 TEST(ChungOoi, Test3Restitution) {
   for (const auto& [name, b] : {Spheres{"aluminium oxide", {0.0025, 4000, 3.8e11, 0.23}},
                                 Spheres{"cast iron", {0.0025, 7000, 1e11, 0.25}}})
     for (const double e : {0.2, 0.4, 0.6, 0.8, 1.0}) {
       const Bounce bounced = bounce(b, 3.9, 0, 0, 0, e);
-      EXPECT_NEAR(bounced.after.v.z / 3.9 / e, 1, 0.002) << name << " " << e;
+      EXPECT_NEAR(bounced.after.v.z / 3.9 / e, 1, 5e-4) << name << " " << e;
       RecordProperty(fmt::format("{} {}", name, e), fmt::format("{:.5f}", bounced.after.v.z / 3.9));
     }
 }
