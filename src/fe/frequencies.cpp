@@ -84,15 +84,11 @@ struct Scaled {
 
 template <class Formulation>
 Scaled scaled_matrices(const Mesh& mesh, std::size_t e, double density, const Formulation& formulation) {
-  const hex8::Corners x = hex8::corners(mesh, e);
-  const auto volumes = hex8::corner_volumes(x);
-  Corners<double> X;
+  const auto volumes = hex8::corner_volumes(hex8::corners(mesh, e));
+  const Corners<double> X = local_corners(mesh, e);
   Eigen::Matrix<double, 24, 1> root_mass;
   for (int a = 0; a < 8; ++a)
-    for (int i = 0; i < 3; ++i) {
-      X[a][i] = x[a][i] - x[0][i];
-      root_mass(3 * a + i) = std::sqrt(density * volumes[a]);
-    }
+    for (int i = 0; i < 3; ++i) root_mass(3 * a + i) = std::sqrt(density * volumes[a]);
   const auto scale = root_mass.cwiseInverse().asDiagonal();
   return {scale * stiffness_matrix(formulation, X) * scale, scale * damping_matrix(formulation, X) * scale,
           root_mass};

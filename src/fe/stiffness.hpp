@@ -3,8 +3,11 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "fe/formulations.hpp"
 #include "fe/hooke.hpp"
 #include "fe/modes.hpp"
+#include "fe/parameters.hpp"
+#include "geometry/hex8.hpp"
 
 namespace geist::fe {
 
@@ -54,6 +57,25 @@ Matrix24 damping_matrix(const Formulation& formulation, const Corners<double>& X
   } else {
     return Matrix24::Zero();
   }
+}
+
+/// Positions of an element's corners about its first one.
+inline Corners<double> local_corners(const Mesh& mesh, std::size_t e) {
+  const hex8::Corners x = hex8::corners(mesh, e);
+  Corners<double> X;
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) X[a][i] = x[a][i] - x[0][i];
+  return X;
+}
+
+/// Call visit(e, K) for every element of a mesh that `wanted(e)`, in order.
+template <class Wanted, class Visit>
+void visit_stiffness(const Mesh& mesh, Wanted wanted, Visit visit) {
+  for (const HexRegion& region : mesh.regions)
+    visit_formulation(region.formulation, parameters(region), [&](const auto& formulation) {
+      for (std::size_t e = region.first; e < region.first + region.count; ++e)
+        if (wanted(e)) visit(e, stiffness_matrix(formulation, local_corners(mesh, e)));
+    });
 }
 
 }  // namespace geist::fe

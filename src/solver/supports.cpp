@@ -37,6 +37,10 @@ double Motion::velocity(double t, double dt) const {
   return 0;
 }
 
+double Motion::displacement(double t) const {
+  return kind == Kind::displacement ? factor * curve.at(t) : 0;
+}
+
 void Supports::apply(Model& model, double dt, Vec3 gravity, bool arrived) {
   velocities.resize(motions.size());
   for (std::size_t m = 0; m < motions.size(); ++m) velocities[m] = motions[m].velocity(model.time, dt);

@@ -16,6 +16,9 @@ struct Motion {
 
   /// Velocity over the step from t to t + dt.
   double velocity(double t, double dt) const;
+
+  /// Displacement of a state of rest at time t: 0 where a velocity is prescribed, which has not moved anything yet.
+  double displacement(double t) const;
 };
 
 /// One component (0–2 displacement, 3–5 rotation) of a node (lattice < 0) or of a particle.

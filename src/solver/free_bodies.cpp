@@ -1,0 +1,103 @@
+#include "solver/free_bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <map>
+#include <numeric>
+#include <vector>
+
+namespace geist {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Numbers nodes first, then the sites of every lattice, and joins them.
+class Pieces {
+ public:
+  explicit Pieces(const Model& model) {
+    std::size_t n = model.mesh.nodes();
+    for (const Lattice& lattice : model.lattices) first_.push_back(n), n += lattice.grid.size();
+    parent_.resize(n);
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    for (const auto& element : model.mesh.elements)
+      for (const std::int32_t node : element) join(element[0], node);
+    for (std::size_t l = 0; l < model.lattices.size(); ++l) join_lattice(model, l);
+  }
+
+  std::size_t first(std::size_t lattice) const { return first_[lattice]; }
+  std::size_t of(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+ private:
+  void join_lattice(const Model& model, std::size_t l) {
+    const Lattice& lattice = model.lattices[l];
+    for (std::size_t s = 0; s < lattice.grid.size(); ++s)
+      for (int d = 9; d < 18; ++d)
+        if (lattice.word[s] >> d & 1) join(first_[l] + s, first_[l] + s + lattice.grid.offset(d));
+    for (const Ghost& ghost : lattice.ghosts)
+      join(first_[l] + ghost.site, model.mesh.elements[ghost.element][0]);
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = of(a), b = of(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+  std::vector<std::size_t> first_, parent_;
+};
+
+/// One piece: where it begins, and Σ s sᵀ over held components, s the component's share of each rigid motion.
+struct Piece {
+  std::string region;
+  Vec3 X;
+  Matrix6 holds = Matrix6::Zero();
+
+  void hold(Vec3 at, int component, double size) {
+    Vec3 unit;
+    unit[component % 3] = 1;
+    const Vec3 x = (1 / size) * (at - X), turn = component < 3 ? cross(x, unit) : unit;
+    const Vec3 shift = component < 3 ? unit : Vec3{};
+    Eigen::Matrix<double, 6, 1> s;
+    s << shift.x, shift.y, shift.z, turn.x, turn.y, turn.z;
+    holds += s * s.transpose();
+  }
+  int held_motions() const {
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(holds, Eigen::EigenvaluesOnly);
+    const auto& values = solver.eigenvalues();
+    return static_cast<int>((values.array() > 1e-10 * values(5)).count());
+  }
+};
+
+std::string region_of_node(const Mesh& mesh, std::int32_t node) {
+  for (const HexRegion& region : mesh.regions)
+    for (std::size_t e = region.first; e < region.first + region.count; ++e)
+      for (const std::int32_t i : mesh.elements[e])
+        if (i == node) return region.name;
+  return {};
+}
+
+/// All pieces by their first member.
+std::map<std::size_t, Piece> find_pieces(const Model& model, Pieces& pieces) {
+  std::map<std::size_t, Piece> found;
+  const Mesh& mesh = model.mesh;
+  for (std::size_t i = 0; i < mesh.nodes(); ++i) {
+    const auto [it, is_new] = found.try_emplace(pieces.of(i));
+    if (is_new) it->second.region = region_of_node(mesh, static_cast<std::int32_t>(i)), it->second.X = mesh.points[i];
+    for (int c = 0; c < 3; ++c)
+      if (mesh.held[i] >> c & 1) it->second.hold(mesh.points[i], c, 1);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string find_free_body(const Model& model) {
+  Pieces pieces(model);
+  std::map<std::size_t, Piece> found = find_pieces(model, pieces);
+  (void)found;
+  return {};
+}
+
+}  // namespace geist

@@ -1,0 +1,98 @@
+#include "solver/point_blocks.hpp"
+
+#include <map>
+#include <utility>
+
+#include "core/parallel.hpp"
+#include "de/stiffness.hpp"
+#include "fe/stiffness.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace geist {
+namespace {
+
+/// Inverse of a symmetric matrix over its free rows and columns, and zero along what it does not resist.
+template <int N>
+Eigen::Matrix<double, N, N> inverse_over(Eigen::Matrix<double, N, N> A, int free) {
+  for (int c = 0; c < N; ++c)
+    if (!(free >> c & 1)) A.row(c).setZero(), A.col(c).setZero();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(A);
+  const auto& values = solver.eigenvalues();
+  const double least = 1e-10 * values(N - 1);
+  Eigen::Matrix<double, N, 1> inverse;
+  for (int c = 0; c < N; ++c) inverse(c) = values(c) > least ? 1 / values(c) : 0;
+  return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+/// y = A x for the first N of six components, the others zero.
+template <int N>
+void multiply(const Eigen::Matrix<double, N, N>& A, const double* x, double* y) {
+  for (int c = 0; c < 6; ++c) y[c] = 0;
+  for (int d = 0; d < N; ++d)
+    for (int c = 0; c < N; ++c) y[c] = fma(A(c, d), x[d], y[c]);
+}
+
+/// Stiffness of a site's bonds against its own motion.
+Eigen::Matrix<double, 6, 6> own_stiffness(const std::array<de::BondMatrices, 18>& bonds, std::uint32_t word) {
+  Eigen::Matrix<double, 6, 6> K = Eigen::Matrix<double, 6, 6>::Zero();
+  for (int d = 0; d < 18; ++d)
+    if (word >> d & 1) K += bonds[d].B_i.transpose() * bonds[d].K * bonds[d].B_i;
+  return K;
+}
+
+}  // namespace
+
+PointBlocks::PointBlocks(const Model& model, const Places& places)
+    : places_(places.size()), of_place_(places.size()), nodes_(model.mesh.nodes(), Eigen::Matrix3d::Zero()) {
+  add_elements(model, places);
+  for (std::size_t l = 0; l < model.lattices.size(); ++l)
+    add_lattice(model.lattices[l], static_cast<std::int32_t>(l), model, places);
+  for_each(nodes_.size(), [this, &places](std::size_t i) {
+    nodes_[i] = inverse_over<3>(nodes_[i], places[places.of_node(i)].free);
+  });
+}
+
+void PointBlocks::add_elements(const Model& model, const Places& places) {
+  const Mesh& mesh = model.mesh;
+  for (std::size_t i = 0; i < mesh.nodes(); ++i) of_place_[places.of_node(i)] = static_cast<std::int32_t>(i);
+  const auto add = [&](std::size_t e, const fe::Matrix24& K) {
+    for (int a = 0; a < 8; ++a) nodes_[mesh.elements[e][a]] += K.block<3, 3>(3 * a, 3 * a);
+  };
+  fe::visit_stiffness(mesh, [](std::size_t) { return true; }, add);
+}
+
+void PointBlocks::add_lattice(const Lattice& lattice, std::int32_t l, const Model& model,
+                              const Places& places) {
+  const auto bonds = de::bond_matrices(lattice);
+  std::map<std::pair<std::uint32_t, int>, std::int32_t> known;
+  for (std::size_t s = 0; s < lattice.grid.size(); ++s) {
+    const std::int32_t k = places.of_site(l, s);
+    if (k < 0) continue;
+    const std::uint32_t word = lattice.word[s] & site::bonds;
+    const auto index = static_cast<std::int32_t>(sites_.size());
+    const auto [it, is_new] = known.try_emplace({word, places[k].free}, index);
+    if (is_new) sites_.push_back(inverse_over<6>(own_stiffness(bonds, word), places[k].free));
+    of_place_[k] = -1 - it->second;
+  }
+  for (const Ghost& ghost : lattice.ghosts) {
+    const Eigen::Matrix3d K = own_stiffness(bonds, lattice.word[ghost.site]).topLeftCorner<3, 3>();
+    for (int I = 0; I < 8; ++I)
+      nodes_[model.mesh.elements[ghost.element][I]] += ghost.N[I] * ghost.N[I] * K;
+  }
+}
+
+void PointBlocks::solve(const PlaceVector& r, PlaceVector& z) const {
+  for_each(
+      places_,
+      [this, from = r.data(), to = z.data()](std::size_t k) {
+        const std::int32_t i = of_place_[k];
+        if (i >= 0)
+          multiply<3>(nodes_[i], from + 6 * k, to + 6 * k);
+        else
+          multiply<6>(sites_[-1 - i], from + 6 * k, to + 6 * k);
+      },
+      1000);
+}
+
+}  // namespace geist

@@ -1,0 +1,28 @@
+// Rigid blocks: the coarse part of the statics' preconditioner. Every block of places moves as a rigid body, and what
+// lies between the blocks resists: a small stiffness matrix, factorised once.
+#pragma once
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "solver/places.hpp"
+
+namespace geist {
+
+class RigidBlocks {
+ public:
+  RigidBlocks(const Model& model, const Places& places);
+
+  /// z += P A⁻¹ Pᵀ r, P from the blocks' motions to the free components, A = Pᵀ K P.
+  void add_solution(const PlaceVector& r, PlaceVector& z) const;
+
+ private:
+  void restrict_to_blocks(const PlaceVector& r, Eigen::VectorXd& b) const;
+  void add_motion(const Eigen::VectorXd& motion, PlaceVector& z) const;
+
+  const Places& places_;
+  std::vector<Vec3> centre_;  ///< of each block: its motion is a translation and a rotation about it
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky_;
+};
+
+}  // namespace geist
