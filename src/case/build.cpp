@@ -23,10 +23,11 @@ void add_region(Mesh& mesh, const Case& input, const RegionSpec& spec, const Hex
   region.name = spec.name;
   region.material = input.materials.at(spec.material);
   const bool viscous = hexahedra.formulation == "one-point" && hexahedra.hourglass == "viscous";
-  if (viscous && input.analysis.type == "quasi-static")
-    throw std::invalid_argument(
-        "viscous hourglass control resists motion only, so a quasi-static analysis never comes "
-        "to rest; use hourglass = \"stiffness\"");
+  if (viscous && (input.analysis.type != "dynamic" || input.analysis.start == "static"))
+    throw std::invalid_argument(fmt::format(
+        "viscous hourglass control resists motion only, so a {} never comes to rest; use hourglass = "
+        "\"stiffness\"",
+        input.analysis.type == "dynamic" ? "static start" : input.analysis.type + " analysis"));
   region.formulation = viscous ? "one-point-viscous" : hexahedra.formulation;
   region.hourglass_coefficient = hexahedra.hourglass_coefficient;
   append(mesh, region, mesh_of(hexahedra.body, hexahedra.gradings), hexahedra.minus);

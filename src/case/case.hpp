@@ -108,9 +108,11 @@ struct ProbeSpec {
 };
 
 struct AnalysisSpec {
-  std::string type;         ///< "dynamic", "quasi-static"
-  double duration = 0;      ///< dynamic: the end; quasi-static: give up then (0: after max_steps)
-  double tolerance = 1e-6;  ///< quasi-static: residual / load
+  std::string type;                  ///< "dynamic", "quasi-static", "static"
+  std::string start = "undeformed";  ///< dynamic: or "static", at equilibrium under the loads of time 0
+  double duration = 0;               ///< dynamic: the end; quasi-static: give up then (0: after max_steps)
+  double tolerance = 1e-6;           ///< static, quasi-static: residual / load
+  long max_iterations = 10'000;      ///< static
   long max_steps = 10'000'000;
   double safety = 0.9;              ///< time step / safe bound
   std::optional<double> time_step;  ///< overrides the above; must not exceed the bound

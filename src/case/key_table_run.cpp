@@ -7,7 +7,8 @@ using namespace key_builders;
 
 namespace {
 
-constexpr Condition dynamic{"type", "dynamic"}, quasi_static{"type", "quasi-static"};
+constexpr Condition dynamic{"type", "dynamic"}, quasi_static{"type", "quasi-static"},
+    statics{"type", "static"};
 constexpr Condition no_gravity{"gravity", {}, true};
 
 Key where(std::string_view say) { return within(Type::table, "where", "where", say); }
@@ -128,14 +129,34 @@ Table analysis_table() {
   return {
       "analysis",
       "[analysis]",
-      "Either the motion over a given time (dynamic), or the state of rest under the loads, found by "
-      "adaptive dynamic relaxation (quasi-static).",
-      {choice("type", {"dynamic", "quasi-static"}, "What is computed.").required(),
+      "Either the motion over a given time (dynamic), or the state of rest under the loads: solved for at "
+      "once "
+      "(static), or found by adaptive dynamic relaxation (quasi-static), which takes a hundred times longer "
+      "but also "
+      "contact. Both take loads and supports as they are when no curve changes any more. A static analysis "
+      "has no "
+      "time: what is said about time and steps has no meaning for it.",
+      {choice("type", {"dynamic", "static", "quasi-static"}, "What is computed.").required(),
+       choice("start", {"undeformed", "static"},
+              "Where the motion begins: undeformed, or (static) in equilibrium under loads and displacements "
+              "as they "
+              "are at time 0; [[initial]] adds its velocities.")
+           .otherwise("\"undeformed\"")
+           .when(dynamic),
        number("duration", "time",
               "Dynamic: the end of the run. Quasi-static: where to give up (without it, "
               "after max_steps).")
            .above(0)
            .required_when(dynamic),
+       number("tolerance", "-",
+              "The solution is found when the residual force, relative to the load, is below this.")
+           .range_is({0, 1, true, true})
+           .otherwise("1e-8")
+           .when(statics),
+       value(Type::integer, "max_iterations", "-", "Where to give up; a hundred iterations are usual.")
+           .at_least(1)
+           .otherwise("10000")
+           .when(statics),
        number("tolerance", "-", "The run ends when the residual force, relative to the load, is below this.")
            .range_is({0, 1, true, true})
            .otherwise("1e-6")

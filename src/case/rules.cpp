@@ -58,15 +58,14 @@ void check_supports(Document& document, const View& root) {
 }
 
 /// A state of rest needs something that holds the body and something that deforms it.
-void check_quasi_static(Document& document, const View& root) {
-  const auto analysis = root.table("analysis");
-  if (!analysis || analysis->get<std::string>("type") != "quasi-static") return;
+void check_rest(Document& document, const View& root, const View& analysis, std::string_view type) {
   const std::vector<View> supports = root.tables("supports"), loads = root.tables("loads");
   const auto none = [&](const char* key, const std::vector<View>& list) {
     return list.empty() && (!root.has(key) || root.acceptable(key));  // not where the list itself is wrong
   };
   if (none("supports", supports)) {
-    document.report(analysis->place("type"), "a quasi-static case needs at least one of [[supports]]");
+    document.report(analysis.place("type"),
+                    fmt::format("a {} case needs at least one of [[supports]]", type));
     return;
   }
   const bool moving = std::any_of(supports.begin(), supports.end(), [](const View& support) {
@@ -74,8 +73,36 @@ void check_quasi_static(Document& document, const View& root) {
   });
   if (!moving && none("loads", loads))
     document.report(
-        analysis->place("type"),
-        "a quasi-static case needs one of [[loads]], or a support with a displacement or velocity");
+        analysis.place("type"),
+        fmt::format("a {} case needs one of [[loads]], or a support with a displacement or velocity", type));
+}
+
+/// Equilibrium is solved for at once: nothing may depend on the way there.
+void check_equilibrium(Document& document, const View& root, const View& analysis, const char* key) {
+  if (!root.tables("contact").empty())
+    document.report(analysis.place(key),
+                    "equilibrium is solved for without [[contact]], which changes with the motion; "
+                    "type = \"quasi-static\" takes it");
+}
+
+void check_static(Document& document, const View& root, const View& analysis) {
+  check_equilibrium(document, root, analysis, "type");
+  for (const View& support : root.tables("supports"))
+    if (support.has("velocity"))
+      document.report(support.place("velocity"),
+                      "a static analysis knows no velocity; give a displacement and a curve");
+  if (!root.tables("initial").empty())
+    document.report(analysis.place("type"), "a static analysis knows no velocity: it has no [[initial]]");
+}
+
+void check_analysis(Document& document, const View& root) {
+  const auto analysis = root.table("analysis");
+  if (!analysis) return;
+  const std::string type = analysis->get<std::string>("type").value_or("");
+  if (type == "quasi-static" || type == "static") check_rest(document, root, *analysis, type);
+  if (type == "static") check_static(document, root, *analysis);
+  if (type == "dynamic" && analysis->get<std::string>("start") == "static")
+    check_equilibrium(document, root, *analysis, "start");
 }
 
 }  // namespace
@@ -90,7 +117,7 @@ void check_rules(Document& document) {
   }
   check_contact(document, root);
   check_supports(document, root);
-  check_quasi_static(document, root);
+  check_analysis(document, root);
 }
 
 }  // namespace geist

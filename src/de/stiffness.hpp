@@ -45,7 +45,8 @@ inline std::array<BondMatrices, 18> bond_matrices(const Lattice& lattice) {
   const ElasticBond law = ElasticBond::from(lattice.material, lattice.radius());
   return [&]<int... D>(std::integer_sequence<int, D...>) {
     return std::array<BondMatrices, 18>{detail::bond_matrices<D>(law, lattice.radius())...};
-  }(std::make_integer_sequence<int, 18>{});
+  }
+  (std::make_integer_sequence<int, 18>{});
 }
 
 }  // namespace geist::de

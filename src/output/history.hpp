@@ -21,7 +21,7 @@ struct HistoryRow {
   double time = 0;
   std::vector<double> probes;  ///< in the order of the probes given at the beginning
   Ledger ledger;
-  double residual = std::numeric_limits<double>::quiet_NaN();  ///< share of the load; quasi-static runs
+  double residual = std::numeric_limits<double>::quiet_NaN();  ///< share of the load; static and quasi-static
 };
 
 /// The columns of the history with their units, in order.

@@ -101,11 +101,14 @@ double Progress::seconds_left(const ProgressReport& report, double now) {
 }
 
 std::string Progress::line(const ProgressReport& report, double now) {
-  std::string text = fmt::format("step {} | {:.6g} {}", with_commas(report.step), report.time, time_unit_);
+  std::string text = fmt::format("{} {}", report.iterating ? "iteration" : "step", with_commas(report.step));
+  if (!report.iterating) text += fmt::format(" | {:.6g} {}", report.time, time_unit_);
   if (!std::isnan(report.fraction)) text += fmt::format(" | {:.0f} %", std::floor(100 * report.fraction));
   if (!std::isnan(report.residual)) text += fmt::format(" | residual {:.2e}", report.residual);
   if (!std::isnan(report.balance)) text += fmt::format(" | balance {:+.1e}", report.balance);
-  if (rate_ > 0) text += fmt::format(" | {} steps/s", with_commas(std::llround(rate_)));
+  if (rate_ > 0)
+    text += fmt::format(" | {} {}/s", with_commas(std::llround(rate_)),
+                        report.iterating ? "iterations" : "steps");
   const double left = seconds_left(report, now);
   if (left < 59.5)
     text += fmt::format(" | {:.0f} s left", left);

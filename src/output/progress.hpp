@@ -13,9 +13,10 @@ namespace geist::output {
 struct ProgressReport {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   long step = 0;
-  double time = 0;                                 ///< in the case's unit
-  double fraction = unknown;                       ///< done, 0 to 1; dynamic runs
-  double residual = unknown, tolerance = unknown;  ///< share of the load; quasi-static runs
+  bool iterating = false;     ///< steps are iterations of a static analysis: there is no time
+  double time = 0;            ///< in the case's unit
+  double fraction = unknown;  ///< done, 0 to 1; dynamic runs
+  double residual = unknown, tolerance = unknown;  ///< share of the load; static and quasi-static runs
   double balance = unknown;                        ///< share of the energies; dynamic runs
 };
 

@@ -62,6 +62,13 @@ Json quasi_static_json(const std::optional<Convergence>& c) {
   return {{"residual", c->residual}, {"tolerance", c->tolerance}, {"converged", c->converged}};
 }
 
+Json equilibrium_json(const std::optional<EquilibriumFound>& found) {
+  if (!found) return nullptr;
+  Json json{{"iterations", found->iterations}};
+  json.update(quasi_static_json(found->convergence));
+  return json;
+}
+
 Json wall_json(const RunSummary& summary) {
   Json json{{"total", summary.wall_seconds()}, {"phases", Json::object()}};
   for (const Phase& phase : summary.phases) json["phases"][phase.name] = phase.seconds;
@@ -111,6 +118,7 @@ nlohmann::ordered_json to_json(const RunSummary& s) {
       {"units", units_json(s)},
       {"ledger", ledger_json(s.ledger)},
       {"quasi_static", quasi_static_json(s.quasi_static)},
+      {"static", equilibrium_json(s.equilibrium)},
       {"counts", counts_json(s.counts)},
       {"steps", s.steps},
       {"time", s.time},

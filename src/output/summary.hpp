@@ -36,6 +36,12 @@ struct Convergence {
   bool converged = false;
 };
 
+/// Of a static run, or of the equilibrium that a dynamic one starts from.
+struct EquilibriumFound {
+  long iterations = 0;
+  Convergence convergence;
+};
+
 struct RunSummary {
   std::string title;
   std::string status;   ///< "completed", "not converged", "interrupted" or "failed"
@@ -49,6 +55,7 @@ struct RunSummary {
   long steps = 0;
   double time = 0;  ///< reached, in the case's unit
   std::optional<Convergence> quasi_static;
+  std::optional<EquilibriumFound> equilibrium;
   std::vector<Phase> phases;
   double particle_steps_per_second = 0, element_steps_per_second = 0;
   int threads = 1;

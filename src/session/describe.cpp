@@ -118,8 +118,11 @@ std::string analysis(const Case& input, const Built& built, const output::UnitSy
   const AnalysisSpec& a = input.analysis;
   const auto count = [](double steps) { return with_commas(static_cast<long long>(std::ceil(steps))); };
   const double dt = built.simulation.dt;
+  if (a.type == "static")
+    return fmt::format("Analysis\n  static, until the residual is below {:.3g} of the load\n", a.tolerance);
   if (a.type == "dynamic")
-    return fmt::format("Analysis\n  dynamic      {} steps to {:.6g} {}\n", count(a.duration / dt), a.duration,
+    return fmt::format("Analysis\n  dynamic      {}{} steps to {:.6g} {}\n",
+                       a.start == "static" ? "from equilibrium, " : "", count(a.duration / dt), a.duration,
                        units.time().name);
   const double most = a.duration > 0 ? a.duration / dt : static_cast<double>(a.max_steps);
   return fmt::format(

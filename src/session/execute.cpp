@@ -83,6 +83,7 @@ class Recorder : public Observer {
   void fields(const Simulation& sim, const Observation&) override { fields_.write(sim); }
 
   void progress(const Simulation& sim, const Observation& now) override {
+    if (now.iterations > 0) return iteration(now);
     const bool dynamic = input_.analysis.type == "dynamic";
     const double fraction =
         dynamic ? sim.model.time / input_.analysis.duration : output::ProgressReport::unknown;
@@ -105,6 +106,15 @@ class Recorder : public Observer {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  void iteration(const Observation& now) {
+    if (!progress_.due()) return;
+    const bool start = input_.analysis.type == "dynamic";
+    progress_.show({.step = now.iterations,
+                    .iterating = true,
+                    .residual = now.residual,
+                    .tolerance = start ? static_start_tolerance : input_.analysis.tolerance});
+  }
+
   const Case& input_;
   const std::vector<Probe>& probes_;
   output::History history_;
@@ -116,6 +126,9 @@ class Recorder : public Observer {
 RunPlan plan_of(const Case& input, const ExecuteOptions& options) {
   RunPlan plan;
   plan.quasi_static = input.analysis.type == "quasi-static";
+  plan.is_static = input.analysis.type == "static";
+  plan.static_start = input.analysis.start == "static";
+  plan.max_iterations = input.analysis.max_iterations;
   plan.tolerance = input.analysis.tolerance;
   plan.end_time = input.analysis.duration;
   plan.max_steps = input.analysis.max_steps;
@@ -186,6 +199,12 @@ output::RunSummary summarise(const Case& input, const ExecuteOptions& options, c
   if (input.analysis.type == "quasi-static")
     s.quasi_static = output::Convergence{outcome.last.residual, input.analysis.tolerance,
                                          outcome.status == Status::completed};
+  if (const auto& found = outcome.equilibrium)
+    s.equilibrium = output::EquilibriumFound{
+        found->iterations,
+        {found->residual,
+         plan_of(input, options).is_static ? input.analysis.tolerance : static_start_tolerance,
+         found->end == Equilibrium::End::found}};
   s.phases = phases_of(sim.timers, wall);
   const auto rate = [&](std::size_t n) {
     return static_cast<double>(n) * static_cast<double>(s.steps) / wall;
@@ -200,11 +219,21 @@ output::RunSummary summarise(const Case& input, const ExecuteOptions& options, c
   return s;
 }
 
+/// Iterations and steps, in words.
+std::string work_done(const output::RunSummary& s) {
+  const std::string steps =
+      fmt::format("{} steps to time {:.6g} {}", output::with_commas(s.steps), s.time, s.units.time().name);
+  if (!s.equilibrium) return steps;
+  const std::string iterations = fmt::format(
+      "{} iterations to a residual of {:.3g} of the load (wanted {:.3g})", s.equilibrium->iterations,
+      s.equilibrium->convergence.residual, s.equilibrium->convergence.tolerance);
+  return s.steps == 0 ? iterations : iterations + ", " + steps;
+}
+
 void print_end(const output::RunSummary& s, const ExecuteOptions& options) {
-  std::string text = fmt::format("\n{}{}{}: {} steps to time {:.6g} {} in {} on {} thread{}\n", s.status,
-                                 s.message.empty() ? "" : ": ", s.message, output::with_commas(s.steps),
-                                 s.time, s.units.time().name, output::human_seconds(s.wall_seconds()),
-                                 s.threads, s.threads == 1 ? "" : "s");
+  std::string text = fmt::format(
+      "\n{}{}{}: {} in {} on {} thread{}\n", s.status, s.message.empty() ? "" : ": ", s.message, work_done(s),
+      output::human_seconds(s.wall_seconds()), s.threads, s.threads == 1 ? "" : "s");
   if (s.quasi_static)
     text += fmt::format("residual {:.3g} of the load (wanted {:.3g})\n", s.quasi_static->residual,
                         s.quasi_static->tolerance);

@@ -15,7 +15,7 @@ namespace geist {
 struct EquilibriumPlan {
   double tolerance = 1e-8;  ///< ‖force out of balance‖ / max(‖loads‖, ‖reactions‖)
   long max_iterations = 10'000;
-  const volatile std::sig_atomic_t* stop = nullptr;    ///< becomes non-zero when the search shall end
+  const volatile std::sig_atomic_t* stop = nullptr;      ///< becomes non-zero when the search shall end
   std::function<void(long, double)> progress = nullptr;  ///< told of every iteration and its residual
 };
 
@@ -26,9 +26,9 @@ struct Equilibrium {
   double residual = 0;
 };
 
-/// Bring the model to rest where its loads and supports at model.time want it. A prescribed displacement is that of
-/// the curve at this time; where a velocity is prescribed nothing has moved yet. Without contact and viscous
-/// hourglass control. Velocities stay as they are, and forces are for Simulation::start() to find.
+/// Bring the model to rest where its loads and supports at model.time want it. A prescribed displacement is
+/// that of the curve at this time; where a velocity is prescribed nothing has moved yet. Without contact and
+/// viscous hourglass control. Velocities stay as they are, and forces are for Simulation::start() to find.
 Equilibrium find_equilibrium(Simulation& sim, const EquilibriumPlan& plan);
 
 }  // namespace geist

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -66,7 +67,7 @@ struct Piece {
   int held_motions() const {
     const Eigen::SelfAdjointEigenSolver<Matrix6> solver(holds, Eigen::EigenvaluesOnly);
     const auto& values = solver.eigenvalues();
-    return static_cast<int>((values.array() > 1e-10 * values(5)).count());
+    return values(5) > 0 ? static_cast<int>((values.array() > 1e-10 * values(5)).count()) : 0;
   }
 };
 
@@ -78,25 +79,63 @@ std::string region_of_node(const Mesh& mesh, std::int32_t node) {
   return {};
 }
 
-/// All pieces by their first member.
-std::map<std::size_t, Piece> find_pieces(const Model& model, Pieces& pieces) {
-  std::map<std::size_t, Piece> found;
-  const Mesh& mesh = model.mesh;
-  for (std::size_t i = 0; i < mesh.nodes(); ++i) {
-    const auto [it, is_new] = found.try_emplace(pieces.of(i));
-    if (is_new) it->second.region = region_of_node(mesh, static_cast<std::int32_t>(i)), it->second.X = mesh.points[i];
-    for (int c = 0; c < 3; ++c)
-      if (mesh.held[i] >> c & 1) it->second.hold(mesh.points[i], c, 1);
+/// All pieces by their first member, with what holds them.
+class Holds {
+ public:
+  explicit Holds(const Model& model) : model_(model), pieces_(model) {
+    for (const Lattice& lattice : model.lattices) length_ = lattice.grid.pitch;
+    if (!model.mesh.elements.empty()) {
+      const auto& corners = model.mesh.elements[0];
+      length_ = norm(model.mesh.points[corners[1]] - model.mesh.points[corners[0]]);
+    }
+    add_nodes();
+    for (std::size_t l = 0; l < model.lattices.size(); ++l) add_sites(l);
   }
-  return found;
-}
+  const std::map<std::size_t, Piece>& found() const { return found_; }
+
+ private:
+  void add_nodes() {
+    const Mesh& mesh = model_.mesh;
+    for (std::size_t i = 0; i < mesh.nodes(); ++i) {
+      const auto [it, is_new] = found_.try_emplace(pieces_.of(i));
+      Piece& piece = it->second;
+      if (is_new) piece.region = region_of_node(mesh, static_cast<std::int32_t>(i)), piece.X = mesh.points[i];
+      for (int c = 0; c < 3; ++c)
+        if (mesh.held[i] >> c & 1) piece.hold(mesh.points[i], c, length_);
+    }
+  }
+
+  /// A ghost that may not spin holds as well; where it is, its nodes say.
+  void add_sites(std::size_t l) {
+    const Lattice& lattice = model_.lattices[l];
+    for (std::size_t s = 0; s < lattice.grid.size(); ++s) {
+      if (!(lattice.word[s] & (site::particle | site::ghost))) continue;
+      const Vec3 X = lattice.grid.centre(s);
+      const auto [it, is_new] = found_.try_emplace(pieces_.of(pieces_.first(l) + s));
+      if (is_new) it->second.region = lattice.name, it->second.X = X;
+      if (lattice.is(s, site::free)) continue;
+      const int held = lattice.listed_held[listed_slot(lattice, s)];
+      for (int c = lattice.is(s, site::ghost) ? 3 : 0; c < 6; ++c)
+        if (held >> c & 1) it->second.hold(X, c, length_);
+    }
+  }
+
+  const Model& model_;
+  Pieces pieces_;
+  std::map<std::size_t, Piece> found_;
+  double length_ = 1;
+};
 
 }  // namespace
 
 std::string find_free_body(const Model& model) {
-  Pieces pieces(model);
-  std::map<std::size_t, Piece> found = find_pieces(model, pieces);
-  (void)found;
+  const Holds holds(model);
+  for (const auto& [first, piece] : holds.found())
+    if (const int held = piece.held_motions(); held < 6)
+      return fmt::format(
+          "region '{}' is free to move: the supports hold {} of the 6 rigid motions of the piece at "
+          "({:.6g}, {:.6g}, {:.6g}), so that it has no state of rest",
+          piece.region, held, piece.X.x, piece.X.y, piece.X.z);
   return {};
 }
 

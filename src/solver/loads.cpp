@@ -62,6 +62,10 @@ void settle(std::vector<Load>& loads, const Model& model, double until) {
   }
 }
 
+void reckon_proportional(std::vector<Load>& loads, const Model& model) {
+  for (Load& load : loads) load.work = 0.5 * load.curve.at(model.time) * conjugate_displacement(load, model);
+}
+
 double norm(const std::vector<Load>& loads, const Model& model, double t) {
   double squares = 0;
   for (const Load& load : loads) {

@@ -44,6 +44,9 @@ Vec3 gravity(const std::vector<Load>& loads, double t);
 /// cheap.
 void settle(std::vector<Load>& loads, const Model& model, double until);
 
+/// Every load's work as if it had grown in proportion to the displacement: W = ½ c q.
+void reckon_proportional(std::vector<Load>& loads, const Model& model);
+
 /// √Σ|F|² of all forces at time t.
 double norm(const std::vector<Load>& loads, const Model& model, double t);
 

@@ -1,4 +1,5 @@
-// Places: whatever has degrees of freedom, in one list, for the statics: nodes, particles, ghosts (their spins).
+// Places: whatever has degrees of freedom, in one list, for the statics: nodes, particles, ghosts (their
+// spins).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -10,10 +11,10 @@ namespace geist {
 /// A node (lattice < 0), or a particle or ghost.
 struct Place {
   Vec3 X;
-  std::size_t index;          ///< node, or site
+  std::size_t index;           ///< node, or site
   std::int32_t lattice, slot;  ///< slot of the site in its lattice's list, < 0 if it is not listed
-  std::uint8_t free;          ///< bit c is set if component c (0–2 displacement, 3–5 rotation) is unknown
-  std::uint8_t held;          ///< … if a support prescribes it
+  std::uint8_t free;  ///< bit c is set if component c (0–2 displacement, 3–5 rotation) is unknown
+  std::uint8_t held;  ///< … if a support prescribes it
 };
 
 /// Six numbers a place: of displacement and rotation, or of force and moment.
@@ -37,8 +38,8 @@ class Places {
   /// Free and prescribed components of x become the model's displacement; ghosts follow their nodes.
   void put(const PlaceVector& x, Model& model) const;
 
-  /// Forces of elements and bonds as the kernels leave them (mesh.f, the listed forces, and of free particles what
-  /// a kick of unit mass made of their velocity).
+  /// Forces of elements and bonds as the kernels leave them (mesh.f, the listed forces, and of free particles
+  /// what a kick of unit mass made of their velocity).
   void take(const Model& model, PlaceVector& f) const;
 
  private:

@@ -59,7 +59,8 @@ void PointBlocks::add_elements(const Model& model, const Places& places) {
   const auto add = [&](std::size_t e, const fe::Matrix24& K) {
     for (int a = 0; a < 8; ++a) nodes_[mesh.elements[e][a]] += K.block<3, 3>(3 * a, 3 * a);
   };
-  fe::visit_stiffness(mesh, [](std::size_t) { return true; }, add);
+  fe::visit_stiffness(
+      mesh, [](std::size_t) { return true; }, add);
 }
 
 void PointBlocks::add_lattice(const Lattice& lattice, std::int32_t l, const Model& model,
@@ -77,8 +78,7 @@ void PointBlocks::add_lattice(const Lattice& lattice, std::int32_t l, const Mode
   }
   for (const Ghost& ghost : lattice.ghosts) {
     const Eigen::Matrix3d K = own_stiffness(bonds, lattice.word[ghost.site]).topLeftCorner<3, 3>();
-    for (int I = 0; I < 8; ++I)
-      nodes_[model.mesh.elements[ghost.element][I]] += ghost.N[I] * ghost.N[I] * K;
+    for (int I = 0; I < 8; ++I) nodes_[model.mesh.elements[ghost.element][I]] += ghost.N[I] * ghost.N[I] * K;
   }
 }
 

@@ -1,5 +1,5 @@
-// Rigid blocks: the coarse part of the statics' preconditioner. Every block of places moves as a rigid body, and what
-// lies between the blocks resists: a small stiffness matrix, factorised once.
+// Rigid blocks: the coarse part of the statics' preconditioner. Every block of places moves as a rigid body,
+// and what lies between the blocks resists: a small stiffness matrix, factorised once.
 #pragma once
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>

@@ -204,9 +204,66 @@ class Runner {
   bool reported_history_ = false, reported_fields_ = false;
 };
 
+Status status_of(Equilibrium::End end) {
+  switch (end) {
+    case Equilibrium::End::found:
+      return Status::completed;
+    case Equilibrium::End::not_converged:
+      return Status::not_converged;
+    case Equilibrium::End::interrupted:
+      return Status::interrupted;
+    case Equilibrium::End::failed:
+      return Status::failed;
+  }
+  return Status::failed;
+}
+
+/// Equilibrium at sim's time, watched.
+Outcome equilibrium(Simulation& sim, const RunPlan& plan, double tolerance,
+                    const std::vector<Observer*>& observers) {
+  EquilibriumPlan search{tolerance, plan.max_iterations, plan.stop, {}};
+  search.progress = [&](long iterations, double residual) {
+    Observation now;
+    now.iterations = iterations, now.residual = residual;
+    for (Observer* o : observers) o->progress(sim, now);
+  };
+  Outcome outcome;
+  outcome.equilibrium = find_equilibrium(sim, search);
+  outcome.status = status_of(outcome.equilibrium->end), outcome.message = outcome.equilibrium->message;
+  return outcome;
+}
+
+/// The end of a run that has no steps.
+void end_at_start(Simulation& sim, Outcome& outcome, const std::vector<Observer*>& observers) {
+  sim.start_loaded();
+  outcome.last = {sim.ledger(), sim.residual(), outcome.equilibrium->iterations};
+  for (Observer* o : observers) o->history(sim, outcome.last), o->fields(sim, outcome.last);
+}
+
+Outcome run_static(Simulation& sim, const RunPlan& plan, const std::vector<Observer*>& observers) {
+  sim.model.time = steady_from(sim);
+  Outcome outcome = equilibrium(sim, plan, plan.tolerance, observers);
+  end_at_start(sim, outcome, observers);
+  return outcome;
+}
+
+Outcome run_from_equilibrium(Simulation& sim, const RunPlan& plan, const std::vector<Observer*>& observers) {
+  Outcome start = equilibrium(sim, plan, static_start_tolerance, observers);
+  if (start.status != Status::completed) {
+    start.message = "static start: " + start.message;
+    end_at_start(sim, start, observers);
+    return start;
+  }
+  Outcome outcome = Runner(sim, plan, observers).run();
+  outcome.equilibrium = start.equilibrium;
+  return outcome;
+}
+
 }  // namespace
 
 Outcome run(Simulation& sim, const RunPlan& plan, const std::vector<Observer*>& observers) {
+  if (plan.is_static) return run_static(sim, plan, observers);
+  if (plan.static_start) return run_from_equilibrium(sim, plan, observers);
   return Runner(sim, plan, observers).run();
 }
 

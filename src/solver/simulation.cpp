@@ -78,6 +78,13 @@ void Simulation::start() {
   damping_power_ = 2 * alpha * now.kinetic();
 }
 
+void Simulation::start_loaded() {
+  start();
+  initial_energy_ = 0;
+  reckon_proportional(loads, model);
+  supports.reckon_proportional(model);
+}
+
 void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   const Vec3 g = gravity(loads, model.time);
   const de::Kick kick = make_kick(alpha, kick_dt, g);

@@ -31,6 +31,10 @@ class Simulation {
   /// Forces at t^0 and the first half kick. Like an observed step.
   void start();
 
+  /// start() where the model has been brought to equilibrium: its energy and the work of loads and supports
+  /// are those of all of them growing in proportion from nothing, ½ f·u. Everything is at rest.
+  void start_loaded();
+
   /// One step. If `observe`, the velocity at t^n is kept for ledger(), residual() and the writers.
   void step(bool observe);
 

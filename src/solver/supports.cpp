@@ -12,6 +12,11 @@ double& velocity_of(Model& model, const HeldComponent& h) {
                        : model.lattices[h.lattice].velocity[h.component][h.place];
 }
 
+double displacement_of(const Model& model, const HeldComponent& h) {
+  return h.lattice < 0 ? model.mesh.u[h.component][h.place]
+                       : model.lattices[h.lattice].motion[h.component][h.place];
+}
+
 double force_on(const Model& model, const HeldComponent& h) {
   return h.lattice < 0 ? model.mesh.f[h.component][h.place]
                        : model.lattices[h.lattice].listed_force[h.component][h.slot];
@@ -37,9 +42,7 @@ double Motion::velocity(double t, double dt) const {
   return 0;
 }
 
-double Motion::displacement(double t) const {
-  return kind == Kind::displacement ? factor * curve.at(t) : 0;
-}
+double Motion::displacement(double t) const { return kind == Kind::displacement ? factor * curve.at(t) : 0; }
 
 void Supports::apply(Model& model, double dt, Vec3 gravity, bool arrived) {
   velocities.resize(motions.size());
@@ -59,6 +62,11 @@ void Supports::apply(Model& model, double dt, Vec3 gravity, bool arrived) {
 
 void Supports::halt(Model& model) {
   for (HeldComponent& h : held) velocity_of(model, h) = h.velocity = 0;
+}
+
+void Supports::reckon_proportional(const Model& model) {
+  work = 0;
+  for (const HeldComponent& h : held) work += 0.5 * h.reaction * displacement_of(model, h);
 }
 
 double Supports::reaction_norm() const {

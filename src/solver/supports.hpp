@@ -17,7 +17,8 @@ struct Motion {
   /// Velocity over the step from t to t + dt.
   double velocity(double t, double dt) const;
 
-  /// Displacement of a state of rest at time t: 0 where a velocity is prescribed, which has not moved anything yet.
+  /// Displacement of a state of rest at time t: 0 where a velocity is prescribed, which has not moved
+  /// anything yet.
   double displacement(double t) const;
 };
 
@@ -45,6 +46,9 @@ struct Supports {
 
   /// Bring what is held to rest, whatever its initial velocity says.
   void halt(Model& model);
+
+  /// Work as if the reactions had grown in proportion to the displacement: W = ½ R·u.
+  void reckon_proportional(const Model& model);
 
   /// √Σ R² over displacement components
   double reaction_norm() const;

@@ -5,9 +5,9 @@
 
 namespace geist {
 
-enum class Phase { drift, coupling, contact, elements, lattice, nodes, observe };
-inline constexpr std::array<const char*, 7> phase_names{
-    "drift", "coupling", "contact", "elements", "lattice", "nodes and loads", "observation"};
+enum class Phase { equilibrium, drift, coupling, contact, elements, lattice, nodes, observe };
+inline constexpr std::array<const char*, 8> phase_names{
+    "equilibrium", "drift", "coupling", "contact", "elements", "lattice", "nodes and loads", "observation"};
 
 class Timers {
  public:

@@ -54,6 +54,9 @@ Case example(const std::string& name, const std::vector<std::string>& set) {
 RunPlan plan_of(const Case& input) {
   RunPlan plan;
   plan.quasi_static = input.analysis.type == "quasi-static";
+  plan.is_static = input.analysis.type == "static";
+  plan.static_start = input.analysis.start == "static";
+  plan.max_iterations = input.analysis.max_iterations;
   plan.tolerance = input.analysis.tolerance;
   plan.end_time = input.analysis.duration;
   plan.max_steps = input.analysis.max_steps;
