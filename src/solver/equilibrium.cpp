@@ -154,7 +154,11 @@ class Search {
   }
 
   double dot(const PlaceVector& a, const PlaceVector& b) const {
-    return sum<double>(a.size(), [a = a.data(), b = b.data()](std::size_t i) { return a[i] * b[i]; });
+    return sum<double>(places_.size(), [a = a.data(), b = b.data()](std::size_t k) {
+      double s = 0;
+      for (std::size_t i = 6 * k; i < 6 * k + 6; ++i) s = fma(a[i], b[i], s);
+      return s;
+    });
   }
   /// x += α p, r −= α K p.
   void advance(double alpha) {

@@ -50,8 +50,8 @@ enum class Status { completed, not_converged, interrupted, failed };
 
 struct Outcome {
   Status status = Status::completed;
-  std::string message;                     ///< for people; empty if completed
-  Observation last;                        ///< at the final state
+  std::string message;                          ///< for people; empty if completed
+  Observation last;                             ///< at the final state
   std::optional<Equilibrium> equilibrium = {};  ///< of a static run, or of a static start
 };
 

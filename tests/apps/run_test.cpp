@@ -24,6 +24,36 @@ TEST_F(Running, CompletesAndWritesItsResults) {
   EXPECT_NE(ended.out.find("tip"), std::string::npos);
 }
 
+TEST_F(Running, SolvesAStaticCase) {
+  const auto ended = run({"run", "case.toml", "--out", "out", "--set", "analysis.type=static"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  for (const std::string name : all_results) EXPECT_TRUE(exists("out/" + name)) << name;
+  const auto summary = this->summary("out");
+  EXPECT_GT(summary["static"]["iterations"], 0);
+  EXPECT_TRUE(summary["static"]["converged"]);
+  EXPECT_LE(summary["static"]["residual"], summary["static"]["tolerance"]);
+  EXPECT_TRUE(summary["quasi_static"].is_null());
+  EXPECT_NE(ended.out.find("iterations to a residual of"), std::string::npos) << ended.out;
+}
+
+TEST_F(Running, SaysWhichRegionHasNoStateOfRest) {
+  const auto ended = run({"run", "case.toml", "--out", "out", "--quiet", "--set", "analysis.type=static",
+                          "--set", "coupling.type=none"});
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_NE(ended.err.find("region 'right' is free to move"), std::string::npos) << ended.err;
+  EXPECT_EQ(summary("out")["status"], "failed");
+}
+
+TEST_F(Running, StartsAMotionFromEquilibrium) {
+  const auto ended = run({"run", "case.toml", "--out", "out", "--quiet", "--set",
+                          "analysis={type=\"dynamic\",start=\"static\",duration=0.01}"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const auto summary = this->summary("out");
+  EXPECT_GT(summary["static"]["iterations"], 0);
+  EXPECT_LT(summary["ledger"]["kinetic_translation"], 1e-12);
+  EXPECT_GT(summary["ledger"]["initial"], 1e-6);
+}
+
 TEST_F(Running, NamesItsResultsAfterTheCase) {
   write("short.toml", testing::beam);
   EXPECT_EQ(run({"run", "short.toml", "--quiet"}).code, 0);

@@ -89,8 +89,9 @@ TEST(KeyTable, TestCasesUseEveryKey) {
   std::set<std::string> used;
   for (const char* text : {everything, good_case})
     collect(parse_document(text, "case.toml").root, key_table().front(), used);
-  const std::set<std::string> beside{"displacement.y", "displacement.z", "displacement.rx", "displacement.rz",
-                                     "velocity.x",     "velocity.z",     "velocity.rx",     "velocity.ry"};
+  const std::set<std::string> beside{"displacement.y",  "displacement.z", "displacement.rx",
+                                     "displacement.rz", "velocity.x",     "velocity.z",
+                                     "velocity.rx",     "velocity.ry",    "analysis.max_iterations"};
   for (const Table& table : key_table())
     for (const Key& key : table.keys) {
       const std::string path = std::string(table.name) + "." + std::string(key.name);
