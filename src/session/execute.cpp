@@ -224,19 +224,20 @@ std::string work_done(const output::RunSummary& s) {
   const std::string steps =
       fmt::format("{} steps to time {:.6g} {}", output::with_commas(s.steps), s.time, s.units.time().name);
   if (!s.equilibrium) return steps;
-  const std::string iterations = fmt::format(
-      "{} iterations to a residual of {:.3g} of the load (wanted {:.3g})", s.equilibrium->iterations,
-      s.equilibrium->convergence.residual, s.equilibrium->convergence.tolerance);
+  const std::string iterations = fmt::format("{} iterations", output::with_commas(s.equilibrium->iterations));
   return s.steps == 0 ? iterations : iterations + ", " + steps;
+}
+
+std::string residual(const output::Convergence& c, const char* of) {
+  return fmt::format("residual{} {:.3g} of the load (wanted {:.3g})\n", of, c.residual, c.tolerance);
 }
 
 void print_end(const output::RunSummary& s, const ExecuteOptions& options) {
   std::string text = fmt::format(
       "\n{}{}{}: {} in {} on {} thread{}\n", s.status, s.message.empty() ? "" : ": ", s.message, work_done(s),
       output::human_seconds(s.wall_seconds()), s.threads, s.threads == 1 ? "" : "s");
-  if (s.quasi_static)
-    text += fmt::format("residual {:.3g} of the load (wanted {:.3g})\n", s.quasi_static->residual,
-                        s.quasi_static->tolerance);
+  if (s.equilibrium) text += residual(s.equilibrium->convergence, s.steps > 0 ? " at the start" : "");
+  if (s.quasi_static) text += residual(*s.quasi_static, "");
   if (!s.probes.empty()) text += "\n" + output::to_text(output::probe_table(s.probes, s.units));
   text += "\n" + output::to_text(output::ledger_table(s.ledger, s.units));
   text += "\n" + output::to_text(output::timing_table(s.phases));

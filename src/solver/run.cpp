@@ -236,7 +236,8 @@ Outcome equilibrium(Simulation& sim, const RunPlan& plan, double tolerance,
 /// The end of a run that has no steps.
 void end_at_start(Simulation& sim, Outcome& outcome, const std::vector<Observer*>& observers) {
   sim.start_loaded();
-  outcome.last = {sim.ledger(), sim.residual(), outcome.equilibrium->iterations};
+  outcome.equilibrium->residual = sim.residual();
+  outcome.last = {sim.ledger(), outcome.equilibrium->residual, outcome.equilibrium->iterations};
   for (Observer* o : observers) o->history(sim, outcome.last), o->fields(sim, outcome.last);
 }
 

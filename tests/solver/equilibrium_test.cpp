@@ -108,6 +108,20 @@ TEST(Equilibrium, NamesTheLatticeThatNothingHolds) {
       << outcome.message;
 }
 
+/// Two cubes that share an edge: held as a whole, and yet one of them turns freely about it.
+TEST(Equilibrium, SaysThatAHingeResistsNothing) {
+  std::string text =
+      column(standing + std::string("[[loads]]\nwhere = { z = 4 }\ntotal_force = [1, 0, 3]\n") + statics);
+  const std::string box = "box = [[0, 0, 0], [1, 1, 4]]\ndivisions = [1, 1, 8]";
+  text.replace(text.find(box), box.size(),
+               "box = [[0, 0, 0], [2, 1, 4]]\ndivisions = [4, 2, 8]\n"
+               "minus = [{ box = [[1, 0, 0], [2, 1, 2]] }, { box = [[0, 0, 2], [1, 1, 4]] }]");
+  Built built = build_text(text);
+  const Outcome outcome = run(built.simulation, static_plan(), {});
+  EXPECT_NE(outcome.status, Status::completed);
+  EXPECT_NE(outcome.message.find("no equilibrium"), std::string::npos) << outcome.message;
+}
+
 TEST(Equilibrium, GivesUpAfterItsIterations) {
   Built built = coupled_with(std::string(pull) + statics);
   RunPlan plan = static_plan();
