@@ -154,9 +154,14 @@ def coarse_checks(results: Results) -> list[Check]:
                   "the same coarse mesh when it was first computed, ± 1 %") for model, low in COARSE.items()]
 
 
+def shown(results: Results) -> list[str]:
+    """The models whose histories and fields are drawn; the short set has fewer."""
+    return [model for model in MODELS if model in results]
+
+
 def draw_histories(results: Results) -> Figure:
     figure, (force, centre) = panels(2, 1, (9, 5.5), sharex=True)
-    for model, colour in MODELS.items():
+    for model, colour in ((model, MODELS[model]) for model in shown(results)):
         h = results[model].history
         for axes, quantity in ((force, "force"), (centre, "centre")):
             axes.plot(h["time"], h[quantity], STYLES[model], color=colour, label=model)
@@ -169,17 +174,20 @@ def draw_histories(results: Results) -> Figure:
 
 
 def draw_fields(results: Results) -> Figure:
-    figure, axes = panels(2, 3, (9.5, 6), sharex=True, sharey=True)
-    for row, (point, time) in enumerate(REPORTED.items()):
-        shapes = {model: underside(results[model], time) for model in MODELS}
+    models, end = shown(results), results["coupled"].history["time"].max()
+    points = {point: time for point, time in REPORTED.items() if time <= end}
+    columns = len(models)
+    figure, axes = panels(len(points), columns, (3.2 * columns, 3 * len(points)), sharex=True, sharey=True)
+    for row, (point, time) in enumerate(points.items()):
+        shapes = {model: underside(results[model], time) for model in models}
         low, high = (pick(pick(z) for _, _, z in shapes.values()) for pick in (min, max))
-        row_axes = axes[3 * row : 3 * row + 3]
+        row_axes = axes[columns * row : columns * (row + 1)]
         for panel, (model, (x, y, z)) in zip(row_axes, shapes.items()):
             shape = panel.tricontourf(x, y, z, levels=MaxNLocator(20).tick_values(low, high), cmap="viridis")
             panel.locator_params(nbins=4)
             panel.set_aspect("equal")
             panel.grid(False)
-            label(panel, "x [mm]" if row else "", "y [mm]" if panel is row_axes[0] else "",
+            label(panel, "x [mm]" if row == len(points) - 1 else "", "y [mm]" if panel is row_axes[0] else "",
                   f"{model}, {point}, {time:.3f} ms")
         figure.colorbar(shape, ax=row_axes, label="displacement [mm]", shrink=0.9)
     return figure
