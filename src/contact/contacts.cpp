@@ -94,38 +94,38 @@ void Contacts::search_again(const Model& model) {
     return a.contactor != b.contactor ? a.contactor < b.contactor : a.other < b.other;
   };
   std::vector<Memory> memory(next.pairs.size());
+  std::vector<State> state(next.pairs.size(), State::apart);
   for (std::size_t i = 0; i < candidates_.pairs.size(); ++i) {
-    if (!memory_[i].touching) continue;
+    if (state_[i] != State::touching) continue;
     const auto it = std::lower_bound(next.pairs.begin(), next.pairs.end(), candidates_.pairs[i], before);
     if (it != next.pairs.end() && !before(candidates_.pairs[i], *it))
-      memory[it - next.pairs.begin()] = memory_[i];
+      memory[it - next.pairs.begin()] = memory_[i], state[it - next.pairs.begin()] = State::touching;
   }
-  candidates_ = std::move(next), memory_ = std::move(memory);
+  candidates_ = std::move(next), memory_ = std::move(memory), state_ = std::move(state);
   active_.assign(candidates_.pairs.size(), {});
   ++searches_;
 }
 
 void Contacts::meet(const Model& model, std::size_t pair, double dt) {
-  active_[pair].touch.count = 0;
-  if (candidates_.pairs[pair].is_body())
-    meet_body(model, pair, dt);
-  else
-    meet_particle(model, pair, dt);
-  if (active_[pair].touch.count == 0) active_[pair].response = release(dt, memory_[pair]);
+  const bool touches =
+      candidates_.pairs[pair].is_body() ? meet_body(model, pair, dt) : meet_particle(model, pair, dt);
+  const bool parts = !touches && state_[pair] == State::touching;
+  if (parts) active_[pair].response = release(dt, memory_[pair]);
+  state_[pair] = touches ? State::touching : parts ? State::parted : State::apart;
 }
 
-void Contacts::meet_body(const Model& model, std::size_t number, double dt) {
+bool Contacts::meet_body(const Model& model, std::size_t number, double dt) {
   const Pair& pair = candidates_.pairs[number];
   const Contactor& c = contactors_[pair.contactor];
   const std::span<const std::int32_t> facets(candidates_.facets.data() + pair.first,
                                              static_cast<std::size_t>(pair.count));
   Probing probe{places_.x.vector(c.place), c.radius, reach(c), c.radius == 0 ? c.place : -1, {}};
-  if (!may_touch(surface_, places_.x, facets, probe)) return;
+  if (!may_touch(surface_, places_.x, facets, probe)) return false;
   if (c.radius == 0) probe.outward = area_vector(surface_, places_.x, c.place, c.region);
   Active& active = active_[number];
   active.touch = touch(surface_, places_.x, facets, probe);
   const Touch& t = active.touch;
-  if (t.count == 0) return;
+  if (t.count == 0) return false;
   const SurfaceFacet& facet = surface_.facets[t.point[0].facet];
   const PairLaw& law = pair_laws_[laws_.at(c.region, facet.region)];
   const Under under = under_touch(model, c, t);
@@ -134,6 +134,7 @@ void Contacts::meet_body(const Model& model, std::size_t number, double dt) {
   active.response =
       respond(law, {k, t.overlap, t.lambda_sum() / t.overlap, t.normal, under.velocity, under.inverse_mass},
               dt, memory_[number]);
+  return true;
 }
 
 Contacts::Under Contacts::under_touch(const Model& model, const Contactor& c, const Touch& t) const {
@@ -156,12 +157,12 @@ Contacts::Under Contacts::under_touch(const Model& model, const Contactor& c, co
   return under;
 }
 
-void Contacts::meet_particle(const Model& model, std::size_t number, double dt) {
+bool Contacts::meet_particle(const Model& model, std::size_t number, double dt) {
   const Pair& pair = candidates_.pairs[number];
   const Contactor &a = contactors_[pair.contactor], &b = contactors_[pair.other];
   const Vec3 xa = places_.x.vector(a.place), xb = places_.x.vector(b.place);
   const double distance = norm(xa - xb), overlap = a.radius + b.radius - distance;
-  if (overlap <= 0) return;
+  if (overlap <= 0) return false;
   const Vec3 n = (1 / distance) * (xa - xb);
   const Vec3 p = xb + (b.radius - 0.5 * overlap) * n;
   active_[number].touch = {1, {TouchPoint{-1, {}, p, n, overlap, overlap}}, overlap, n};
@@ -173,6 +174,7 @@ void Contacts::meet_particle(const Model& model, std::size_t number, double dt) 
   const PairLaw& law = pair_laws_[laws_.at(a.region, b.region)];
   const NormalStiffness k = spring(a, 0, {b.region, b.radius, 0});
   active_[number].response = respond(law, {k, overlap, 1, n, velocity, inverse_mass}, dt, memory_[number]);
+  return true;
 }
 
 /// Two columns of material in series: for a particle the half of its cell, 4 r (λ + 2μ), and the same of the
@@ -194,11 +196,12 @@ void Contacts::collect(const Model& model) {
   for (const std::int32_t place : marked_list_) force_[place] = moment_[place] = {}, marked_[place] = 0;
   marked_list_.clear();
   energies_.stored = 0;
-  for (std::size_t i = 0; i < active_.size(); ++i) {
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    if (state_[i] == State::apart) continue;
     const Response& response = active_[i].response;
     energies_.stored += response.stored;
     energies_.friction += response.friction, energies_.damping += response.damping;
-    if (active_[i].touch.count > 0) push(candidates_.pairs[i], active_[i]);
+    if (state_[i] == State::touching) push(candidates_.pairs[i], active_[i]);
   }
   list_touched(model);
 }

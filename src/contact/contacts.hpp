@@ -97,6 +97,9 @@ class Contacts {
   long searches() const { return searches_; }
 
  private:
+  /// Of a pair in the last step; parted: it touched in the one before.
+  enum class State : std::uint8_t { apart, parted, touching };
+
   /// A pair that touches: where, and the force on the contactor.
   struct Active {
     Touch touch;  ///< with a body; for two particles only the normal and one point
@@ -119,9 +122,9 @@ class Contacts {
   void find_thinnest();
   void search_again(const Model& model);
   void meet(const Model& model, std::size_t pair, double dt);
-  void meet_body(const Model& model, std::size_t pair, double dt);
+  bool meet_body(const Model& model, std::size_t pair, double dt);
   Under under_touch(const Model& model, const Contactor& c, const Touch& t) const;
-  void meet_particle(const Model& model, std::size_t pair, double dt);
+  bool meet_particle(const Model& model, std::size_t pair, double dt);
   double largest_stiffness(const Contactor& c, std::int32_t other) const;
   NormalStiffness spring(const Contactor& c, double area, const Opposite& other) const;
   void collect(const Model& model);
@@ -143,7 +146,8 @@ class Contacts {
 
   Candidates candidates_;
   std::vector<Memory> memory_;  ///< by pair
-  std::vector<Active> active_;  ///< by pair; touch.count = 0 where nothing touches
+  std::vector<State> state_;    ///< by pair
+  std::vector<Active> active_;  ///< by pair; valid but where it is apart
   long searches_ = 0;
 
   Energies energies_;
