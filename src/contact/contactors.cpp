@@ -1,9 +1,8 @@
 #include "contact/contactors.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 
+#include "core/disjoint_sets.hpp"
 #include "core/parallel.hpp"
 
 namespace geist::contact {
@@ -43,18 +42,10 @@ Vec3 inverse_mass(const Model& model, Place place) {
   return free_inverse(lattice.mass, listed ? lattice.listed_held[listed_slot(lattice, place.index)] : 0);
 }
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Box nowhere() { return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}; }
-
 /// A box that grows.
 struct Extent {
   Box box = nowhere();
-  Extent& operator+=(const Extent& b) {
-    for (int c = 0; c < 3; ++c)
-      box.low[c] = std::min(box.low[c], b.box.low[c]), box.high[c] = std::max(box.high[c], b.box.high[c]);
-    return *this;
-  }
+  Extent& operator+=(const Extent& b) { return widen(box, b.box), *this; }
 };
 
 std::array<const double*, 3> displacements(const Model& model, const PlaceRange& range) {
@@ -63,8 +54,7 @@ std::array<const double*, 3> displacements(const Model& model, const PlaceRange&
   return {motion[0], motion[1], motion[2]};
 }
 
-/// Moves eight places of a range at a time and measures how far they went; lanes beyond the end repeat the
-/// last place.
+/// Moves eight places of a range at a time and measures how far they went.
 struct Follower {
   std::array<double*, 3> x;
   std::array<const double*, 3> X, searched, u;
@@ -86,7 +76,7 @@ struct Follower {
     Extent extent;
     const std::size_t first = begin + pack * lanes, last = std::min(end, first + lanes);
     for (int c = 0; c < 3; ++c) {
-      double low = infinity, high = -infinity;
+      double low = extent.box.low[c], high = extent.box.high[c];
       for (std::size_t i = first; i < last; ++i) {
         const double now = X[c][i] + u[c][index[i]], moved = now - searched[c][i];
         x[c][i] = now;
@@ -101,20 +91,19 @@ struct Follower {
 /// Regions of hexahedra that share nodes, as one number each: of the first of them.
 std::vector<std::int32_t> clusters(const Model& model) {
   const Mesh& mesh = model.mesh;
-  std::vector<std::int32_t> cluster(mesh.regions.size() + model.lattices.size()), owner(mesh.nodes(), -1);
-  std::iota(cluster.begin(), cluster.end(), 0);
-  const auto join = [&cluster](std::int32_t a, std::int32_t b) {
-    const std::int32_t low = std::min(cluster[a], cluster[b]), high = std::max(cluster[a], cluster[b]);
-    if (low != high) std::replace(cluster.begin(), cluster.end(), high, low);
-  };
+  const std::size_t regions = mesh.regions.size() + model.lattices.size();
+  DisjointSets sets(regions);
+  std::vector<std::int32_t> owner(mesh.nodes(), -1);
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const HexRegion& region = mesh.regions[r];
     for (std::size_t e = region.first; e < region.first + region.count; ++e)
       for (const std::int32_t node : mesh.elements[e]) {
         if (owner[node] < 0) owner[node] = static_cast<std::int32_t>(r);
-        join(owner[node], static_cast<std::int32_t>(r));
+        sets.join(static_cast<std::size_t>(owner[node]), r);
       }
   }
+  std::vector<std::int32_t> cluster;
+  for (std::size_t r = 0; r < regions; ++r) cluster.push_back(static_cast<std::int32_t>(sets.of(r)));
   return cluster;
 }
 
@@ -155,11 +144,7 @@ void Places::follow(const Model& model) {
   std::fill(moved.begin(), moved.end(), nowhere());
   for (const PlaceRange& range : ranges) {
     const Follower follow{*this, range, displacements(model, range)};
-    Box& box = moved[range.cluster];
-    const Extent extent = sum<Extent>(follow.packs(), follow);
-    for (int c = 0; c < 3; ++c)
-      box.low[c] = std::min(box.low[c], extent.box.low[c]),
-      box.high[c] = std::max(box.high[c], extent.box.high[c]);
+    widen(moved[range.cluster], sum<Extent>(follow.packs(), follow).box);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/parallel.hpp"
 #include "geometry/shapes.hpp"
@@ -11,13 +12,6 @@ namespace geist::contact {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Box nowhere() { return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}}; }
-
-void widen(Box& box, Vec3 p, double margin) {
-  for (int c = 0; c < 3; ++c)
-    box.low[c] = std::min(box.low[c], p[c] - margin), box.high[c] = std::max(box.high[c], p[c] + margin);
-}
 
 /// Gap between two boxes along the axis on which it is largest; negative if they overlap.
 double gap(const Box& a, const Box& b) {
@@ -154,7 +148,7 @@ class Searcher {
       const SurfaceFacet& facet = surface_.facets[f];
       const FacetPoints at = points_of(facet, places_.x);
       Box box = nowhere();
-      for (const Vec3 p : at.corner) widen(box, p, 0);
+      for (const Vec3 p : at.corner) widen(box, p);
       const Vec3 diagonal = box.high - box.low;
       if (!is_near(facet.region, at.centre, norm(diagonal) + largest_reach_ + skin_)) continue;
       widen(box, box.low, largest_reach_ + skin_), widen(box, box.high, largest_reach_ + skin_);
@@ -180,8 +174,12 @@ class Searcher {
     const Contactor& c = contactors_[i];
     const Vec3 p = position(c);
     std::vector<std::pair<std::int32_t, std::int32_t>> by_body;  // −1 − body, facet
+    std::optional<Vec3> outward;                                 // of a node, once a facet is near
     facets.visit(p, [&](std::int32_t f) {
-      if (may_touch(c, f, p)) by_body.emplace_back(-1 - surface_.facets[f].body, f);
+      if (!may_touch(c, f, p)) return;
+      if (c.radius == 0 && !outward) outward = area_vector(surface_, places_.x, c.place, c.region);
+      if (c.radius > 0 || may_face(*outward, surface_.facets[f]))
+        by_body.emplace_back(-1 - surface_.facets[f].body, f);
     });
     std::sort(by_body.begin(), by_body.end());
     for (const auto& [other, f] : by_body) {
@@ -206,14 +204,12 @@ class Searcher {
       if (corner == c.place) return false;
       widen(box, places_.x.vector(corner), reach(c) + skin_);
     }
-    return contains(box, p) && (c.radius > 0 || may_face(c, facet));
+    return contains(box, p);
   }
 
-  bool may_face(const Contactor& c, const SurfaceFacet& facet) const {
+  bool may_face(Vec3 outward, const SurfaceFacet& facet) const {
     constexpr double own_way = 0.5;
-    const Vec3 outward = area_vector(surface_, places_.x, c.place, c.region);
-    const FacetPoints at = points_of(facet, places_.x);
-    const Vec3 normal = cross(at.corner[2] - at.corner[0], at.corner[3] - at.corner[1]);
+    const Vec3 normal = facet_normal(points_of(facet, places_.x));
     return dot(normal, outward) <= own_way * norm(normal) * norm(outward);
   }
 

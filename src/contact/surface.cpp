@@ -5,6 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "core/disjoint_sets.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/hex8.hpp"
 #include "geometry/triangle.hpp"
@@ -14,38 +15,22 @@ namespace {
 
 /// Number of the body (elements joined by nodes) of every element.
 std::vector<std::int32_t> bodies_of(const Mesh& mesh) {
-  std::vector<std::int32_t> parent(mesh.nodes());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](std::int32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(mesh.nodes());
   for (const auto& nodes : mesh.elements)
-    for (int a = 1; a < 8; ++a) {
-      const std::int32_t p = root(nodes[0]), q = root(nodes[a]);
-      parent[std::max(p, q)] = std::min(p, q);
-    }
+    for (const std::int32_t node : nodes) sets.join(nodes[0], node);
   std::vector<std::int32_t> body;
-  for (const auto& nodes : mesh.elements) body.push_back(root(nodes[0]));
+  for (const auto& nodes : mesh.elements) body.push_back(static_cast<std::int32_t>(sets.of(nodes[0])));
   return body;
-}
-
-std::vector<std::int32_t> regions_of(const Mesh& mesh) {
-  std::vector<std::int32_t> region(mesh.elements.size());
-  for (std::size_t r = 0; r < mesh.regions.size(); ++r)
-    std::fill_n(region.begin() + static_cast<std::ptrdiff_t>(mesh.regions[r].first), mesh.regions[r].count,
-                static_cast<std::int32_t>(r));
-  return region;
 }
 
 /// Whether this facet of a region is a lattice's interface: its ghosts ride there, and its particles touch it
 /// at rest.
 class InterfaceFinder {
  public:
-  InterfaceFinder(const Model& model, const std::vector<std::int32_t>& region) : model_(model) {
+  explicit InterfaceFinder(const Model& model) : model_(model) {
     for (const Lattice& lattice : model.lattices) {
       hosts_.emplace_back(model.mesh.regions.size(), false);
-      for (const Ghost& ghost : lattice.ghosts) hosts_.back()[region[ghost.element]] = true;
+      for (const Ghost& ghost : lattice.ghosts) hosts_.back()[region_of(model.mesh, ghost.element)] = true;
     }
   }
 
@@ -135,15 +120,16 @@ double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(
 Surface make_surface(const Model& model, const std::vector<std::uint8_t>& wanted) {
   const Mesh& mesh = model.mesh;
   Surface surface;
-  const std::vector<std::int32_t> body = bodies_of(mesh), region = regions_of(mesh);
-  const InterfaceFinder at_interface(model, region);
+  const std::vector<std::int32_t> body = bodies_of(mesh);
+  const InterfaceFinder at_interface(model);
   for (const Facet& exterior : exterior_facets(mesh)) {
-    if (!wanted.empty() && !wanted[region[exterior.element]]) continue;
+    const std::int32_t region = region_of(mesh, exterior.element);
+    if (!wanted.empty() && !wanted[region]) continue;
     std::array<Vec3, 4> corner;
     for (int k = 0; k < 4; ++k) corner[k] = mesh.points[exterior.node[k]];
-    if (at_interface(region[exterior.element], corner)) continue;
+    if (at_interface(region, corner)) continue;
     SurfaceFacet facet = make_facet(mesh, exterior);
-    facet.region = region[exterior.element], facet.body = body[exterior.element];
+    facet.region = region, facet.body = body[exterior.element];
     surface.facets.push_back(facet);
   }
   number_nodes(surface, mesh.nodes());
@@ -181,8 +167,7 @@ Vec3 area_vector(const Surface& surface, const Field<3>& x, std::int32_t node, s
   for (std::int32_t s = surface.around_begin[node]; s < surface.around_begin[node + 1]; ++s) {
     const SurfaceFacet& facet = surface.facets[surface.around[s] / 4];
     if (facet.region != region) continue;
-    const FacetPoints at = points_of(facet, x);
-    const Vec3 normal = cross(at.corner[2] - at.corner[0], at.corner[3] - at.corner[1]);
+    const Vec3 normal = facet_normal(points_of(facet, x));
     total += (0.25 * facet.area / norm(normal)) * normal;
   }
   return total;

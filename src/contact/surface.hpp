@@ -49,6 +49,11 @@ inline Vec3 triangle_normal(const FacetPoints& at, int k) {
   return cross(at.corner[(k + 1) % 4] - at.corner[k], at.centre - at.corner[k]);
 }
 
+/// Outward normal of a whole facet, not normalised.
+inline Vec3 facet_normal(const FacetPoints& at) {
+  return cross(at.corner[2] - at.corner[0], at.corner[3] - at.corner[1]);
+}
+
 /// Normal of the surface at a node: the mean of the triangles around it, weighted by the angle that they take
 /// up there (Bærentzen and Aanæs 2005: it tells inside from outside). Not normalised.
 Vec3 node_normal(const Surface& surface, const Field<3>& x, std::int32_t node);

@@ -2,25 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geometry/triangle.hpp"
 
 namespace geist::contact {
 namespace {
 
-constexpr int most_points = 12;
-
 /// The nearest point of one triangle.
 struct Nearest {
   NearestPoint point;
   double distance;
   std::int32_t facet;
-  int k;   ///< triangle
-  Vec3 n;  ///< its unit normal
-  Vec3 away() const { return away_; }
-  Vec3 away_;  ///< from the point to the contactor
+  int k;      ///< triangle
+  Vec3 n;     ///< its unit normal
+  Vec3 away;  ///< from the point to the contactor
 };
+
+bool nearer(const Nearest& a, const Nearest& b) { return a.distance < b.distance; }
 
 /// Nodes lie on a facet's plane beside it by round-off where bodies lie flush; this share of the facet's size
 /// is let pass.
@@ -52,9 +50,7 @@ class Examiner {
   Touch examine(std::span<const std::int32_t> facets) {
     for (const std::int32_t f : facets) visit(f);
     if (count_ == 0) return {};
-    const Nearest& nearest =
-        *std::min_element(found_.begin(), found_.begin() + count_,
-                          [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
+    const Nearest& nearest = *std::min_element(found_.begin(), found_.begin() + count_, nearer);
     if (probe_.radius == 0) return node_touch(nearest);
     return inside(nearest) ? deep_touch(nearest) : outside_touch();
   }
@@ -83,18 +79,16 @@ class Examiner {
   }
 
   void keep(std::int32_t f, int k, Vec3 n, const FacetPoints& at) {
-    Nearest found{nearest_point(probe_.x, at.corner[k], at.corner[(k + 1) % 4], at.centre), 0, f, k, n, {}};
-    found.away_ = probe_.x - found.point.p;
-    found.distance = norm(found.away());
+    const NearestPoint point = nearest_point(probe_.x, at.corner[k], at.corner[(k + 1) % 4], at.centre);
+    const Vec3 away = probe_.x - point.p;
+    const Nearest found{point, norm(away), f, k, n, away};
     if (found.distance >= std::max(probe_.radius, probe_.reach)) return;
-    if (count_ == most_points && probe_.radius > 0) keep_minima();
-    if (count_ < most_points) {
+    if (count_ == static_cast<int>(most_half_spaces) && probe_.radius > 0) keep_minima();
+    if (count_ < static_cast<int>(most_half_spaces)) {
       found_[count_++] = found;
       return;
     }
-    Nearest& farthest =
-        *std::max_element(found_.begin(), found_.end(),
-                          [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
+    Nearest& farthest = *std::max_element(found_.begin(), found_.end(), nearer);
     if (found.distance < farthest.distance) farthest = found;
   }
 
@@ -118,15 +112,15 @@ class Examiner {
       case Feature::edge_ab: {
         if (facet.across[k] < 0) return true;
         const Vec3 other = points_of(surface_.facets[facet.across[k]], x_).centre;
-        return !falls(a.away(), across_edge(corner(k), other, corner(k + 1) - corner(k)));
+        return !falls(a.away, across_edge(corner(k), other, corner(k + 1) - corner(k)));
       }
       case Feature::edge_bc:
-        return !falls(a.away(), across_edge(at.centre, corner(k + 2), corner(k + 1) - at.centre));
+        return !falls(a.away, across_edge(at.centre, corner(k + 2), corner(k + 1) - at.centre));
       case Feature::edge_ca:
-        return !falls(a.away(), across_edge(at.centre, corner(k - 1), corner(k) - at.centre));
+        return !falls(a.away, across_edge(at.centre, corner(k - 1), corner(k) - at.centre));
       case Feature::corner_c:
         return std::none_of(at.corner.begin(), at.corner.end(),
-                            [&](Vec3 p) { return falls(a.away(), p - at.centre); });
+                            [&](Vec3 p) { return falls(a.away, p - at.centre); });
       case Feature::corner_a:
         return minimum_at_node(a, facet.corner[k]);
       case Feature::corner_b:
@@ -141,7 +135,7 @@ class Examiner {
       const FacetPoints at = points_of(surface_.facets[surface_.around[s] / 4], x_);
       const int k = surface_.around[s] % 4;
       for (const Vec3 q : {at.corner[(k + 1) % 4], at.corner[(k + 3) % 4], at.centre})
-        if (falls(a.away(), q - p)) return false;
+        if (falls(a.away, q - p)) return false;
     }
     return true;
   }
@@ -191,7 +185,7 @@ class Examiner {
     return a.n;
   }
 
-  bool inside(const Nearest& a) const { return dot(a.away(), normal_at(a)) < 0; }
+  bool inside(const Nearest& a) const { return dot(a.away, normal_at(a)) < 0; }
 
   TouchPoint make_point(const Nearest& a, Vec3 n, double overlap) const {
     const auto& w = a.point.weight;
@@ -205,11 +199,11 @@ class Examiner {
 
   /// A sphere whose centre has not passed the surface: every local minimum of the distance pushes.
   Touch outside_touch() const {
-    std::array<TouchPoint, most_points> points;
+    std::array<TouchPoint, most_half_spaces> points;
     std::size_t n = 0;
     for (int i = 0; i < count_; ++i)
       if (const Nearest& a = found_[i]; a.distance < probe_.radius && local_minimum(a)) {
-        const Vec3 normal = a.distance > 1e-12 * probe_.radius ? (1 / a.distance) * a.away() : a.n;
+        const Vec3 normal = a.distance > 1e-12 * probe_.radius ? (1 / a.distance) * a.away : a.n;
         points[n++] = make_point(a, normal, probe_.radius - a.distance);
       }
     return shortest_way_out({points.data(), n});
@@ -217,18 +211,18 @@ class Examiner {
 
   /// A sphere whose centre has passed the surface: back to the nearest point of it.
   Touch deep_touch(const Nearest& a) const {
-    const Vec3 normal = a.distance > 1e-12 * probe_.radius ? (-1 / a.distance) * a.away() : a.n;
+    const Vec3 normal = a.distance > 1e-12 * probe_.radius ? (-1 / a.distance) * a.away : a.n;
     return single(make_point(a, normal, probe_.radius + a.distance));
   }
 
   /// A node behind the surface that faces it.
   Touch node_touch(const Nearest& a) const {
-    const double depth = -dot(a.away(), a.n);
+    const double depth = -dot(a.away, a.n);
     if (depth <= 0) return {};
-    const Vec3 sideways = a.away() + depth * a.n;
+    const Vec3 sideways = a.away + depth * a.n;
     if (a.point.feature == Feature::face) return single(make_point(a, a.n, depth));
     if (local_minimum(a) && inside(a) && !on_border(a))
-      return single(make_point(a, (-1 / a.distance) * a.away(), a.distance));
+      return single(make_point(a, (-1 / a.distance) * a.away, a.distance));
     const bool on_plane = norm(sideways) <= beside * std::sqrt(surface_.facets[a.facet].area);
     return on_plane ? single(make_point(a, a.n, depth)) : Touch{};
   }
@@ -236,130 +230,11 @@ class Examiner {
   const Surface& surface_;
   const Field<3>& x_;
   const Probing& probe_;
-  std::array<Nearest, most_points> found_;
+  std::array<Nearest, most_half_spaces> found_;
   int count_ = 0;
 };
 
-/// Displacement Σ λ_i n_i that just meets the half-spaces `active` (one to three of them), if all λ are
-/// positive.
-class WayOut {
- public:
-  explicit WayOut(std::span<const TouchPoint> points) : points_(points) {}
-
-  bool solve(std::initializer_list<std::size_t> active) {
-    const std::size_t n = active.size();
-    index_.assign(active);
-    if (n == 1) lambda_ = {point(0).overlap, 0, 0};
-    if (n == 2 && !solve_two()) return false;
-    if (n == 3 && !solve_three()) return false;
-    for (std::size_t i = 0; i < n; ++i)
-      if (!(lambda_[i] > 0)) return false;
-    return leads_out(n);
-  }
-
-  Touch result(std::size_t n) const {
-    Touch t;
-    Vec3 d;
-    for (std::size_t i = 0; i < n; ++i) {
-      t.point[t.count] = points_[index_[i]], t.point[t.count++].lambda = lambda_[i];
-      d += lambda_[i] * points_[index_[i]].n;
-    }
-    t.overlap = norm(d), t.normal = (1 / t.overlap) * d;
-    return t;
-  }
-
- private:
-  struct Indices {
-    std::array<std::size_t, 3> i{};
-    void assign(std::initializer_list<std::size_t> list) { std::copy(list.begin(), list.end(), i.begin()); }
-    std::size_t operator[](std::size_t k) const { return i[k]; }
-  };
-
-  const TouchPoint& point(std::size_t i) const { return points_[index_[i]]; }
-
-  /// By differences of the normals, e = n_2 − n_1 (e·n_1 = −|e|²/2), so that nothing cancels where they are
-  /// nearly parallel.
-  bool solve_two() {
-    const Vec3 e = point(1).n - point(0).n;
-    const double along = -0.5 * dot(e, e), across = dot(e, e) - along * along;
-    if (across < 1e-9) return false;
-    const double delta = point(0).overlap;
-    const double t = (point(1).overlap - delta - delta * along) / across;
-    lambda_ = {delta - t * (1 + along), t, 0};
-    return true;
-  }
-
-  /// The same for three: d solves n_1·d = δ_1, e_2·d = δ_2 − δ_1, e_3·d = δ_3 − δ_1. Normals in one plane are
-  /// left to pairs, however near to each other they are.
-  bool solve_three() {
-    const Vec3 n = point(0).n, e2 = point(1).n - n, e3 = point(2).n - n;
-    const Vec3 a = cross(e2, e3), b = cross(e3, n), c = cross(n, e2);
-    const double volume = dot(n, a), pairs = dot(b, b) * dot(c, c) * dot(e3 - e2, e3 - e2);
-    if (volume * volume < 1e-9 * std::cbrt(pairs * pairs)) return false;
-    const double delta = point(0).overlap;
-    const Vec3 d =
-        (1 / volume) * (delta * a + (point(1).overlap - delta) * b + (point(2).overlap - delta) * c);
-    const double all = dot(d, a) / volume, second = dot(d, b) / volume, third = dot(d, c) / volume;
-    lambda_ = {all - second - third, second, third};
-    return true;
-  }
-
-  bool leads_out(std::size_t n) const {
-    Vec3 d;
-    for (std::size_t i = 0; i < n; ++i) d += lambda_[i] * points_[index_[i]].n;
-    return std::all_of(points_.begin(), points_.end(), [d](const TouchPoint& q) {
-      return dot(q.n, d) >= q.overlap - 1e-9 * std::max(q.overlap, norm(d));
-    });
-  }
-
-  std::span<const TouchPoint> points_;
-  Indices index_;
-  std::array<double, 3> lambda_{};
-};
-
-/// The deepest three push by themselves, each direction once. Where they cancel, the overlap stays as much
-/// above zero as keeps λ / overlap finite.
-Touch pinched(std::span<const TouchPoint> points) {
-  std::array<TouchPoint, most_points> deepest;
-  std::copy(points.begin(), points.end(), deepest.begin());
-  std::stable_sort(deepest.begin(), deepest.begin() + static_cast<std::ptrdiff_t>(points.size()),
-                   [](const TouchPoint& a, const TouchPoint& b) { return a.overlap > b.overlap; });
-  Touch t;
-  Vec3 d;
-  for (std::size_t i = 0; i < points.size() && t.count < 3; ++i) {
-    const auto same = [&](const TouchPoint& q) { return norm(q.n - deepest[i].n) < 1e-6; };
-    if (std::any_of(t.point.begin(), t.point.begin() + t.count, same)) continue;
-    t.point[t.count++] = deepest[i], d += deepest[i].overlap * deepest[i].n;
-  }
-  const double least = 1e-9 * deepest[0].overlap;
-  t.overlap = std::max(norm(d), least);
-  t.normal = norm(d) > least ? (1 / norm(d)) * d : deepest[0].n;
-  return t;
-}
-
 }  // namespace
-
-double Touch::lambda_sum() const {
-  double s = 0;
-  for (int i = 0; i < count; ++i) s += point[i].lambda;
-  return s;
-}
-
-Touch shortest_way_out(std::span<const TouchPoint> points) {
-  const std::size_t n = points.size();
-  if (n == 0) return {};
-  WayOut way(points);
-  for (std::size_t i = 0; i < n; ++i)
-    if (way.solve({i})) return way.result(1);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j)
-      if (way.solve({i, j})) return way.result(2);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j)
-      for (std::size_t k = j + 1; k < n; ++k)
-        if (way.solve({i, j, k})) return way.result(3);
-  return pinched(points);
-}
 
 bool may_touch(const Surface& surface, const Field<3>& x, std::span<const std::int32_t> facets,
                const Probing& probe) {

@@ -17,12 +17,6 @@ bool within_reach(const Lattice& lattice, int i, int j, int k) {
   return false;
 }
 
-bool is_loose(const Mesh& mesh, const std::vector<bool>& loose, std::int32_t element) {
-  for (std::size_t r = 0; r < loose.size(); ++r)
-    if (static_cast<std::size_t>(element) - mesh.regions[r].first < mesh.regions[r].count) return loose[r];
-  return false;
-}
-
 }  // namespace
 
 void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator,
@@ -33,7 +27,7 @@ void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator,
     const auto [i, j, k] = grid.ijk(s);
     if (i >= grid.nx || lattice.word[s] || !within_reach(lattice, i, j, k)) continue;
     const auto found = locator.find(grid.centre(s));
-    if (found && !is_loose(mesh, loose, found->element))
+    if (found && (loose.empty() || !loose[region_of(mesh, found->element)]))
       lattice.ghosts.push_back({s, found->element, found->xi, hex8::shape(found->xi)});
   }
   for (const Ghost& ghost : lattice.ghosts) lattice.word[ghost.site] = site::ghost;

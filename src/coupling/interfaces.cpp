@@ -14,12 +14,8 @@ namespace {
 
 std::string place(Vec3 p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
-const HexRegion& region_of(const Mesh& mesh, std::int32_t element) {
-  const auto holds = [element](const HexRegion& r) {
-    return static_cast<std::size_t>(element) >= r.first &&
-           static_cast<std::size_t>(element) < r.first + r.count;
-  };
-  return *std::find_if(mesh.regions.begin(), mesh.regions.end(), holds);
+const std::string& name_of_region(const Mesh& mesh, std::int32_t element) {
+  return mesh.regions[region_of(mesh, element)].name;
 }
 
 /// Whether p lies in a cell of the lattice's particles.
@@ -45,7 +41,7 @@ struct Surroundings {
   }
   std::string hexahedra_at(Vec3 p) const {
     const auto found = locator.find(p);
-    return found ? region_of(model.mesh, found->element).name : std::string();
+    return found ? name_of_region(model.mesh, found->element) : std::string();
   }
   std::string at(Vec3 p) const {
     const std::string name = hexahedra_at(p);
@@ -148,7 +144,7 @@ std::optional<Clash> between_hexahedra(const Model& model, const Locator& locato
       auto found = locator.find(p, -1e-6, node);
       const auto touching = found ? found : locator.find(p, 1e-6, node);
       if (!touching) continue;
-      const std::string a = region_of(mesh, facet.element).name, b = region_of(mesh, touching->element).name;
+      const std::string a = name_of_region(mesh, facet.element), b = name_of_region(mesh, touching->element);
       const Vec3 centre = hex8::map(hex8::corners(mesh, static_cast<std::size_t>(facet.element)), {0, 0, 0});
       if (!found) found = locator.find(p + 1e-5 * (centre - p), 1e-7, node);
       if (!found && loose.contains(a, b)) continue;
@@ -171,11 +167,11 @@ std::optional<Clash> centres_elsewhere(const Model& model, const Locator& locato
     const auto clash = [&](const std::string& a, const std::string& b) {
       return Clash{a, b, fmt::format("regions '{}' and '{}' overlap at {}", a, b, place(p))};
     };
-    const std::string& name = region_of(model.mesh, element).name;
+    const std::string& name = name_of_region(model.mesh, element);
     for (const Lattice& lattice : model.lattices)
       if (in_cell(lattice, p)) return clash(lattice.name, name);
     const auto found = locator.find(p);  // the first one there
-    if (found && found->element != element) return clash(name, region_of(model.mesh, found->element).name);
+    if (found && found->element != element) return clash(name, name_of_region(model.mesh, found->element));
   }
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 // Solid shapes that regions are made of.
 #pragma once
 #include <algorithm>
+#include <limits>
 #include <variant>
 
 #include "core/vec.hpp"
@@ -21,6 +22,21 @@ struct Ball {
   double radius;
 };
 using Shape = std::variant<Box, Cylinder, Ball>;
+
+/// The box of nothing, to be widened.
+inline Box nowhere() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+}
+/// Let the box hold the ball of radius `margin` around p.
+inline void widen(Box& box, Vec3 p, double margin = 0) {
+  for (int c = 0; c < 3; ++c)
+    box.low[c] = std::min(box.low[c], p[c] - margin), box.high[c] = std::max(box.high[c], p[c] + margin);
+}
+inline void widen(Box& box, const Box& other) {
+  for (int c = 0; c < 3; ++c)
+    box.low[c] = std::min(box.low[c], other.low[c]), box.high[c] = std::max(box.high[c], other.high[c]);
+}
 
 /// Whether p lies in the closed shape, widened by `margin` (a length) on all sides.
 inline bool contains(const Box& b, Vec3 p, double margin = 0) {

@@ -42,6 +42,13 @@ void make_gather_lists(Mesh& mesh) {
 
 }  // namespace
 
+std::int32_t region_of(const Mesh& mesh, std::int32_t element) {
+  const auto e = static_cast<std::size_t>(element);
+  const auto holds = [e](const HexRegion& r) { return e >= r.first && e < r.first + r.count; };
+  return static_cast<std::int32_t>(std::find_if(mesh.regions.begin(), mesh.regions.end(), holds) -
+                                   mesh.regions.begin());
+}
+
 void finish(Mesh& mesh) {
   make_blocks(mesh);
   make_gather_lists(mesh);

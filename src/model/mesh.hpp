@@ -66,6 +66,9 @@ struct Mesh {
 /// Places of block b, corner a, component 0, lane l in corner_force; component c is 8 c further on.
 constexpr std::size_t corner_slot(std::size_t b, int a, int l) { return (b * 8 + a) * 3 * lanes + l; }
 
+/// Number of the region that an element belongs to.
+std::int32_t region_of(const Mesh& mesh, std::int32_t element);
+
 /// Make the blocks, the gather lists and the (zero) state of a mesh whose points, elements and regions are
 /// set.
 void finish(Mesh& mesh);

@@ -5,8 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <vector>
+#include "core/disjoint_sets.hpp"
 
 namespace geist {
 namespace {
@@ -19,34 +19,27 @@ class Pieces {
   explicit Pieces(const Model& model) {
     std::size_t n = model.mesh.nodes();
     for (const Lattice& lattice : model.lattices) first_.push_back(n), n += lattice.grid.size();
-    parent_.resize(n);
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    sets_ = DisjointSets(n);
     for (const auto& element : model.mesh.elements)
-      for (const std::int32_t node : element) join(element[0], node);
+      for (const std::int32_t node : element) sets_.join(element[0], node);
     for (std::size_t l = 0; l < model.lattices.size(); ++l) join_lattice(model, l);
   }
 
   std::size_t first(std::size_t lattice) const { return first_[lattice]; }
-  std::size_t of(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
+  std::size_t of(std::size_t i) { return sets_.of(i); }
 
  private:
   void join_lattice(const Model& model, std::size_t l) {
     const Lattice& lattice = model.lattices[l];
     for (std::size_t s = 0; s < lattice.grid.size(); ++s)
       for (int d = 9; d < 18; ++d)
-        if (lattice.word[s] >> d & 1) join(first_[l] + s, first_[l] + s + lattice.grid.offset(d));
+        if (lattice.word[s] >> d & 1) sets_.join(first_[l] + s, first_[l] + s + lattice.grid.offset(d));
     for (const Ghost& ghost : lattice.ghosts)
-      join(first_[l] + ghost.site, model.mesh.elements[ghost.element][0]);
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = of(a), b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
+      sets_.join(first_[l] + ghost.site, model.mesh.elements[ghost.element][0]);
   }
 
-  std::vector<std::size_t> first_, parent_;
+  std::vector<std::size_t> first_;
+  DisjointSets sets_;
 };
 
 /// One piece: where it begins, and Σ s sᵀ over held components, s the component's share of each rigid motion.

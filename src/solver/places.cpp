@@ -4,6 +4,7 @@
 
 #include "core/parallel.hpp"
 #include "coupling/ghosts.hpp"
+#include "geometry/shapes.hpp"
 
 namespace geist {
 namespace {
@@ -61,13 +62,9 @@ void Places::add_sites(const Model& model, std::size_t l) {
 /// Cut in the middle of the longest edge of what is there until the pieces are small enough.
 void Places::divide(std::size_t first, std::size_t last, std::size_t block_size) {
   if (first == last) return;
-  Vec3 low = all_[first].X, high = low;
-  for (std::size_t k = first; k < last; ++k)
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], all_[k].X[c]);
-      high[c] = std::max(high[c], all_[k].X[c]);
-    }
-  const Vec3 edge = high - low;
+  Box box = nowhere();
+  for (std::size_t k = first; k < last; ++k) widen(box, all_[k].X);
+  const Vec3 edge = box.high - box.low;
   int axis = 0;
   for (int c = 1; c < 3; ++c)
     if (edge[c] > edge[axis] * (1 + 1e-9)) axis = c;
@@ -75,7 +72,7 @@ void Places::divide(std::size_t first, std::size_t last, std::size_t block_size)
     begin_.push_back(last);
     return;
   }
-  const double middle = low[axis] + (0.5 + 1e-9) * edge[axis];
+  const double middle = box.low[axis] + (0.5 + 1e-9) * edge[axis];
   const auto cut = std::stable_partition(all_.begin() + first, all_.begin() + last,
                                          [=](const Place& p) { return p.X[axis] < middle; });
   const auto half = static_cast<std::size_t>(cut - all_.begin());
