@@ -9,6 +9,7 @@
 #include "case/contact_laws.hpp"
 #include "case/diagnostic.hpp"
 #include "coupling/interfaces.hpp"
+#include "de/assembly.hpp"
 #include "fe/elements.hpp"
 #include "geometry/block.hpp"
 #include "geometry/bounds.hpp"
@@ -145,6 +146,8 @@ void couple(Model& model, const Case& input) {
   for (Lattice& lattice : model.lattices) {
     trim(lattice);
     connect(lattice);
+    if (input.method == "consistent")
+      at_region(input, spec_of(input, lattice.name), [&] { de::assemble(lattice); });
     finish(lattice);
   }
 }
