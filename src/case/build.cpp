@@ -139,7 +139,9 @@ void couple(Model& model, const Case& input) {
     std::vector<bool> without_ghosts;
     for (const HexRegion& region : model.mesh.regions)
       without_ghosts.push_back(loose.contains(lattice.name, region.name));
-    coupling::place_ghosts(lattice, model.mesh, locator, without_ghosts);
+    const bool cells = input.method == "consistent";
+    coupling::place_ghosts(lattice, model.mesh, locator, without_ghosts,
+                           cells ? coupling::Reach::cells : coupling::Reach::bonds);
   }
   if (const auto clash = coupling::find_clash(model, locator, coupled, loose))
     throw error_at(input, spec_of(input, clash->first).source, clash->message);

@@ -76,6 +76,16 @@ TEST(Build, TakesTheTimeStepGivenUnlessItIsTooLong) {
   expect_build_error(text, "[analysis]", {"time_step = 0.01", "safe bound", "region '"});
 }
 
+TEST(Build, MakesConsistentLattices) {
+  EXPECT_FALSE(build(small_case()).simulation.model.lattices[0].consistent());
+  std::string text = materials + two_regions + dynamic;
+  text = "method = \"consistent\"\n" + text;
+  EXPECT_TRUE(build(read_case_text(text, "small.toml")).simulation.model.lattices[0].consistent());
+  const std::string poisson = "poisson = 0.2";
+  text.replace(text.find(poisson), poisson.size(), "poisson = 0.3");
+  expect_build_error(text, "[regions.right]", {"'right'", "poisson = 0.3", "negative stiffness", "0.2500"});
+}
+
 TEST(Build, TakesDamping) {
   EXPECT_EQ(build(small_case("", {"analysis.damping=2.5"})).simulation.alpha, 2.5);
 }
