@@ -9,6 +9,7 @@
 #include "case/contact_laws.hpp"
 #include "case/diagnostic.hpp"
 #include "coupling/interfaces.hpp"
+#include "de/assembly.hpp"
 #include "fe/elements.hpp"
 #include "geometry/block.hpp"
 #include "geometry/bounds.hpp"
@@ -140,13 +141,17 @@ void couple(Model& model, const Case& input) {
     std::vector<bool> without_ghosts;
     for (const HexRegion& region : model.mesh.regions)
       without_ghosts.push_back(loose.contains(lattice.name, region.name));
-    coupling::place_ghosts(lattice, model.mesh, locator, without_ghosts);
+    const bool cells = input.method == "consistent";
+    coupling::place_ghosts(lattice, model.mesh, locator, without_ghosts,
+                           cells ? coupling::Reach::cells : coupling::Reach::bonds);
   }
   if (const auto clash = coupling::find_clash(model, locator, coupled, loose))
     throw error_at(input, spec_of(input, clash->first).source, clash->message);
   for (Lattice& lattice : model.lattices) {
     trim(lattice);
     connect(lattice);
+    if (input.method == "consistent")
+      at_region(input, spec_of(input, lattice.name), [&] { de::assemble(lattice); });
     finish(lattice);
   }
 }

@@ -131,6 +131,7 @@ struct OutputSpec {
 struct Case {
   std::string file, title;
   Units units;
+  std::string method = "published";  ///< or "consistent"
   std::map<std::string, Material> materials;
   std::vector<RegionSpec> regions;           ///< in file order
   std::string coupling = "ghost-particles";  ///< or "none"

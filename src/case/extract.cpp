@@ -199,6 +199,7 @@ Case extract(const Document& document) {
   Case result;
   result.file = document.file;
   result.title = word(root, "title");
+  result.method = word(root, "method");
   const View units = root.table("units").value(), coupling = root.table("coupling").value();
   result.units = {word(units, "length"), word(units, "mass"), word(units, "time")};
   for (const View& view : root.named("materials")) result.materials[view.name()] = material_of(view);

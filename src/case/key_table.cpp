@@ -22,6 +22,11 @@ Table root() {
       "A case file is a TOML file. Everything it may hold is listed here; anything else is refused, with its "
       "line and column.",
       {text("title", "One line that says what the case is.").otherwise("\"\""),
+       choice(
+           "method", {"published", "consistent"},
+           "The published method, or ours with its lattices assembled from cells, skins and edges, and with "
+           "bonds that bend and twist: exact where the published one is too soft at free faces.")
+           .otherwise("\"published\""),
        within(Type::table, "units", "units", "The units that all numbers of the file are in.").required(),
        within(Type::named, "materials", "materials.*", "What the regions are made of.").required(),
        within(Type::named, "regions", "regions.*", "The bodies: hexahedra and lattices of particles.")
@@ -49,17 +54,17 @@ Table units() {
 }
 
 Table materials() {
-  return {
-      "materials.*",
-      "[materials.NAME]",
-      "Isotropic linear elasticity.",
-      {number("density", "mass/length³", "Mass per volume.").above(0).required(),
-       number("young", "stress", "Young's modulus.").above(0).required(),
-       number(
-           "poisson", "-",
-           "Poisson's ratio; at most 1/4 in a lattice, where k_s of equation (5) would be negative beyond.")
-           .range_is({-1, 0.5, true, true})
-           .required()}};
+  return {"materials.*",
+          "[materials.NAME]",
+          "Isotropic linear elasticity.",
+          {number("density", "mass/length³", "Mass per volume.").above(0).required(),
+           number("young", "stress", "Young's modulus.").above(0).required(),
+           number("poisson", "-",
+                  "Poisson's ratio; at most 1/4 in a lattice, where k_s of equation (5) would be negative "
+                  "beyond. The "
+                  "consistent method's limits depend on the lattice: a sheet of one layer allows 0 to 1/3.")
+               .range_is({-1, 0.5, true, true})
+               .required()}};
 }
 
 /// What a region is made of, and where it is.

@@ -8,24 +8,30 @@
 namespace geist::coupling {
 namespace {
 
-/// Whether a bond could join site (i, j, k) to a particle.
-bool within_reach(const Lattice& lattice, int i, int j, int k) {
+/// Whether a bond, or a cell, could join site (i, j, k) to a particle.
+bool within_reach(const Lattice& lattice, int i, int j, int k, Reach reach) {
   const Grid& grid = lattice.grid;
+  const auto particle = [&](int a, int b, int c) {
+    return grid.contains(i + a, j + b, k + c) && lattice.is(grid.index(i + a, j + b, k + c), site::particle);
+  };
   for (const auto& [a, b, c] : directions)
-    if (grid.contains(i + a, j + b, k + c) && lattice.is(grid.index(i + a, j + b, k + c), site::particle))
-      return true;
+    if (particle(a, b, c)) return true;
+  if (reach == Reach::bonds) return false;
+  for (const int a : {-1, 1})
+    for (const int b : {-1, 1})
+      if (particle(a, b, -1) || particle(a, b, 1)) return true;
   return false;
 }
 
 }  // namespace
 
-void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator,
-                  const std::vector<bool>& loose) {
+void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator, const std::vector<bool>& loose,
+                  Reach reach) {
   const Grid& grid = lattice.grid;
   if (mesh.elements.empty()) return;
   for (std::size_t s = 0; s < grid.size(); ++s) {
     const auto [i, j, k] = grid.ijk(s);
-    if (i >= grid.nx || lattice.word[s] || !within_reach(lattice, i, j, k)) continue;
+    if (i >= grid.nx || lattice.word[s] || !within_reach(lattice, i, j, k, reach)) continue;
     const auto found = locator.find(grid.centre(s));
     if (found && (loose.empty() || !loose[region_of(mesh, found->element)]))
       lattice.ghosts.push_back({s, found->element, found->xi, hex8::shape(found->xi)});

@@ -16,11 +16,15 @@
 
 namespace geist::coupling {
 
-/// Make every empty site within a bond's reach of a particle that lies inside a hexahedron a ghost of
-/// `lattice`, but for those in regions that are loose (by region of the mesh; none if the list is empty). The
-/// grid must have a layer of empty sites around the particles.
+/// How far from particles there are ghosts: where a bond can reach (published), or at all corners of the
+/// cells that a particle is part of (consistent).
+enum class Reach { bonds, cells };
+
+/// Make every empty site within reach of a particle that lies inside a hexahedron a ghost of `lattice`, but
+/// for those in regions that are loose (by region of the mesh; none if the list is empty). The grid must have
+/// a layer of empty sites around the particles.
 void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator,
-                  const std::vector<bool>& loose = {});
+                  const std::vector<bool>& loose = {}, Reach reach = Reach::bonds);
 
 /// Displacement of all ghosts from that of the nodes.
 void follow(Lattice& lattice, const Mesh& mesh);

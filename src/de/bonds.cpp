@@ -17,7 +17,29 @@ GEIST_INLINE PackInt words(const std::uint32_t* word) {
   return __builtin_convertvector(w, PackInt);
 }
 
+/// The bonds of published lattices: the same everywhere.
+struct Published {
+  ElasticBond inner;
+
+  explicit Published(const Lattice& lattice) : inner(ElasticBond::from(lattice.material, lattice.radius())) {}
+  GEIST_INLINE const ElasticBond& at(std::size_t) const { return inner; }
+};
+
+/// The bonds of consistent lattices: those of the endless lattice, or by the sites' classes.
+struct Consistent {
+  EndlessBond inner;
+  const BondClass* classes;
+  const std::uint32_t* class_of;
+
+  explicit Consistent(const Lattice& lattice)
+      : inner(EndlessBond::from(lattice.material, lattice.radius())),
+        classes(lattice.classes.data()),
+        class_of(lattice.class_of.data()) {}
+  GEIST_INLINE ClassBonds<Pack> at(std::size_t s) const { return {inner, classes, class_of + s}; }
+};
+
 /// What the row kernel reads and writes, as plain pointers and numbers.
+template <class Method>
 struct RowKernel {
   MotionView motion;
   double* velocity[6];
@@ -26,9 +48,11 @@ struct RowKernel {
   const std::int32_t* listed_begin;
   std::ptrdiff_t offset[18];
   std::size_t stride;
-  ElasticBond law;
+  Method method;
   double r;
   Kick kick;
+
+  explicit RowKernel(const Method& bonds) : method(bonds) {}
 
   struct Accumulated {
     Pack across = {}, after = {}, spin_across = {}, spin_after = {};
@@ -37,7 +61,7 @@ struct RowKernel {
   /// Eight inner particles: every bond exists, all are advanced.
   GEIST_INLINE void inner(std::size_t s, Accumulated& sums) const {
     Pack f[6];
-    site_force(motion, s, offset, law, r, AllBonds{}, f);
+    site_force(motion, s, offset, method.inner, r, AllBonds{}, f);
     advance(
         s, f, sums, [](Pack, Pack v) __attribute__((always_inline)) { return v; });
   }
@@ -46,7 +70,7 @@ struct RowKernel {
   GEIST_INLINE std::int32_t mixed(std::size_t s, std::int32_t slot, Accumulated& sums) const {
     const PackInt w = words(word + s);
     Pack f[6];
-    site_force(motion, s, offset, law, r, SomeBonds{w}, f);
+    site_force(motion, s, offset, method.at(s), r, SomeBonds{w}, f);
     const PackInt free = -((w / site::free) & 1);
     advance(
         s, f, sums, [=](Pack before, Pack after) __attribute__((always_inline)) {
@@ -85,7 +109,7 @@ struct RowKernel {
       std::uint32_t all = site::inner, any = 0;
       for (int l = 0; l < lanes; ++l) all &= word[s + l], any |= word[s + l];
       if (any == 0) continue;
-      if (all == site::inner)
+      if (all == site::inner && any == site::inner)
         inner(s, sums);
       else
         slot = mixed(s, slot, sums);
@@ -95,8 +119,9 @@ struct RowKernel {
   }
 };
 
-RowKernel row_kernel(Lattice& lattice, const Kick& kick) {
-  RowKernel k;
+template <class Method>
+RowKernel<Method> row_kernel(Lattice& lattice, const Kick& kick) {
+  RowKernel<Method> k{Method(lattice)};
   k.motion = view(lattice.motion);
   for (int c = 0; c < 6; ++c) {
     k.velocity[c] = lattice.velocity[c];
@@ -106,30 +131,28 @@ RowKernel row_kernel(Lattice& lattice, const Kick& kick) {
   k.listed_begin = lattice.listed_begin.data();
   for (int d = 0; d < 18; ++d) k.offset[d] = lattice.grid.offset(d);
   k.stride = lattice.grid.stride();
-  k.law = ElasticBond::from(lattice.material, lattice.radius());
   k.r = lattice.radius();
   k.kick = kick;
   return k;
 }
 
 /// Half the energy of every bond of the eight sites at s.
+template <class Method>
 struct SiteEnergies {
   MotionView motion;
   const std::uint32_t* word;
   std::ptrdiff_t offset[18];
-  ElasticBond law;
+  Method method;
   double r;
 
   explicit SiteEnergies(const Lattice& lattice)
-      : motion(view(lattice.motion)),
-        word(lattice.word.data()),
-        law(ElasticBond::from(lattice.material, lattice.radius())),
-        r(lattice.radius()) {
+      : motion(view(lattice.motion)), word(lattice.word.data()), method(lattice), r(lattice.radius()) {
     for (int d = 0; d < 18; ++d) offset[d] = lattice.grid.offset(d);
   }
 
   Pack at(std::size_t s) const {
     const SomeBonds bonds{words(word + s)};
+    const auto& law = method.at(s);
     Pack energy = {};
     [&]<int... D>(std::integer_sequence<int, D...>) {
       ((energy = energy + bonds.keep<D>(bond_energy<D, Pack>(motion, s, offset[D], law, r))), ...);
@@ -139,12 +162,11 @@ struct SiteEnergies {
   }
 };
 
-}  // namespace
-
-KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick) {
+template <class Method>
+KickSums forces_and_kick(Lattice& lattice, const Kick& kick) {
   const std::size_t rows = lattice.grid.rows();
   lattice.row_sums.resize(4 * rows);
-  const RowKernel kernel = row_kernel(lattice, kick);
+  const auto kernel = row_kernel<Method>(lattice, kick);
   double* const sums = lattice.row_sums.data();
   for_each(
       rows,
@@ -158,6 +180,41 @@ KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick) {
   for (std::size_t row = 0; row < rows; ++row)
     total += {sums[4 * row], sums[4 * row + 1], sums[4 * row + 2], sums[4 * row + 3]};
   return total;
+}
+
+template <class Method>
+BondEnergies energies_by(const Lattice& lattice) {
+  // A coupling bond has half of its energy at a particle and half at a ghost, any other all of it at
+  // particles.
+  const SiteEnergies<Method> energy(lattice);
+  return sum<BondEnergies>(lattice.grid.size() / lanes, [energy](std::size_t pack) {
+    const Pack e = energy.at(lanes * pack);
+    BondEnergies sums;
+    for (int l = 0; l < lanes; ++l) {
+      const bool ghost = energy.word[lanes * pack + l] & site::ghost;
+      sums.bonds += ghost ? -e[l] : e[l];
+      sums.coupling += ghost ? 2 * e[l] : 0;
+    }
+    return sums;
+  });
+}
+
+template <class Method>
+std::vector<double> site_energies_by(const Lattice& lattice) {
+  std::vector<double> energies(lattice.grid.size());
+  const SiteEnergies<Method> energy(lattice);
+  const auto store_pack = [energy, out = energies.data()](std::size_t pack) {
+    store(out + lanes * pack, energy.at(lanes * pack));
+  };
+  for_each(lattice.grid.size() / lanes, store_pack, 128);
+  return energies;
+}
+
+}  // namespace
+
+KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick) {
+  return lattice.consistent() ? forces_and_kick<Consistent>(lattice, kick)
+                              : forces_and_kick<Published>(lattice, kick);
 }
 
 KickSums kick_listed(Lattice& lattice, const Kick& kick) {
@@ -178,29 +235,11 @@ KickSums kick_listed(Lattice& lattice, const Kick& kick) {
 }
 
 BondEnergies energies(const Lattice& lattice) {
-  // A coupling bond has half of its energy at a particle and half at a ghost, any other all of it at
-  // particles.
-  const SiteEnergies energy(lattice);
-  return sum<BondEnergies>(lattice.grid.size() / lanes, [energy](std::size_t pack) {
-    const Pack e = energy.at(lanes * pack);
-    BondEnergies sums;
-    for (int l = 0; l < lanes; ++l) {
-      const bool ghost = energy.word[lanes * pack + l] & site::ghost;
-      sums.bonds += ghost ? -e[l] : e[l];
-      sums.coupling += ghost ? 2 * e[l] : 0;
-    }
-    return sums;
-  });
+  return lattice.consistent() ? energies_by<Consistent>(lattice) : energies_by<Published>(lattice);
 }
 
 std::vector<double> site_energies(const Lattice& lattice) {
-  std::vector<double> energies(lattice.grid.size());
-  const SiteEnergies energy(lattice);
-  const auto store_pack = [energy, out = energies.data()](std::size_t pack) {
-    store(out + lanes * pack, energy.at(lanes * pack));
-  };
-  for_each(lattice.grid.size() / lanes, store_pack, 128);
-  return energies;
+  return lattice.consistent() ? site_energies_by<Consistent>(lattice) : site_energies_by<Published>(lattice);
 }
 
 std::size_t bond_count(const Lattice& lattice) {

@@ -51,8 +51,8 @@ std::vector<double> site_energies(const Lattice& lattice);
 /// Number of bonds (each counted once).
 std::size_t bond_count(const Lattice& lattice);
 
-/// Largest ω² of the endless lattice: no lattice cut from it vibrates faster, since missing bonds only soften
-/// it.
+/// An upper bound of the largest ω². Published: that of the endless lattice; no lattice cut from it vibrates
+/// faster, since missing bonds only soften it. Consistent: that and surface_excess (de/assembly.hpp).
 double largest_frequency_squared(const Lattice& lattice);
 
 /// Young's modulus and Poisson's ratio of the endless lattice under homogeneous strain, by its bonds'

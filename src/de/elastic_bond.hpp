@@ -1,18 +1,41 @@
-// The connective model's elastic bond: one normal and two tangential springs at the mid-point of a pair.
-// Source: (3)–(5) of the journal paper.
+// The laws of a bond. Source: (3)–(5) of the journal paper; docs/theory.md, "Consistent lattice".
+//
+// Published: one normal and two tangential springs at the mid-point of a pair, the same for all bonds.
 //
 //   f = K d,  K = diag(k_n, k_s, k_s) in the bond's axes   (3)(4)
 //   k_n = 2 E r / (5 (1 − 2ν)),  k_s = 2 E r (1 − 4ν) / (5 (1 − 2ν)(1 + ν)),  groups 1 and 2 alike   (5)
 //
 // With n the unit vector from i to j: f = k_s d + (k_n − k_s)(d·n) n, and E = ½ f·d. k_s ≥ 0 needs ν ≤ 1/4.
+//
+// Consistent: springs by the class of the site (de/assembly.hpp), and bonds of group 1 resist bending and
+// twisting, m = k (θ_j − θ_i) on i with k_b across the bond and k_t along it.
 #pragma once
 #include "core/pack.hpp"
+#include "model/lattice.hpp"
 #include "model/material.hpp"
 
 namespace geist::de {
 
-/// Stiffnesses (force/length) of every bond of a lattice.
+/// 1 for the nearest neighbours, 2 for the next: the square of the step on the grid.
+constexpr int group(int d) {
+  const auto [a, b, c] = directions[static_cast<std::size_t>(d)];
+  return a * a + b * b + c * c;
+}
+
+/// f = shear d + along (d·e) e for the step e of direction D; each of e is −1, 0 or 1.
+template <int D, class T, class K>
+GEIST_INLINE void springs(const T (&d)[3], K shear, K along_e, T (&f)[3]) {
+  constexpr int e[3] = {directions[D][0], directions[D][1], directions[D][2]};
+  T along = constant<T>(0);
+  for (int c = 0; c < 3; ++c)
+    if (e[c]) along = e[c] > 0 ? along + d[c] : along - d[c];
+  along = along * along_e;
+  for (int c = 0; c < 3; ++c) f[c] = e[c] == 0 ? shear * d[c] : fma(shear, d[c], e[c] > 0 ? along : -along);
+}
+
+/// Stiffnesses (force/length) of every bond of a published lattice.
 struct ElasticBond {
+  static constexpr bool bends = false;
   double k_n = 0, k_s = 0;
 
   static ElasticBond from(const Material& m, double r) {
@@ -20,16 +43,70 @@ struct ElasticBond {
     return {k_n, k_n * (1 - 4 * nu) / (1 + nu)};
   }
 
-  /// Force on i of a bond along n = (ex, ey, ez)/|e| at relative displacement d = d_j − d_i, into f; e is −1,
-  /// 0 or 1.
-  template <int ex, int ey, int ez, class T>
+  /// Force on i of a bond in direction D at relative displacement d = d_j − d_i, into f.
+  template <int D, class T>
   GEIST_INLINE void force(const T (&d)[3], T (&f)[3]) const {
-    constexpr int e[3] = {ex, ey, ez}, length2 = ex * ex + ey * ey + ez * ez;
-    T along = constant<T>(0);
-    for (int c = 0; c < 3; ++c)
-      if (e[c]) along = e[c] > 0 ? along + d[c] : along - d[c];
-    along = along * ((k_n - k_s) / length2);
-    for (int c = 0; c < 3; ++c) f[c] = e[c] == 0 ? k_s * d[c] : fma(k_s, d[c], e[c] > 0 ? along : -along);
+    springs<D>(d, k_s, (k_n - k_s) / group(D), f);
+  }
+};
+
+/// Stiffness against rotation (moment by angle) of a bond of group 1: that of a bar of the cell's section,
+/// (2r)², and length 2r. Twisted, a square bar has 0.1406 of its edge⁴ (Saint-Venant).
+struct Bending {
+  static constexpr bool bends = true;
+  double k_b = 0, k_t = 0;
+  double bend = 0, twist = 0;  ///< by r, as the stencil adds them to moments
+
+  static Bending from(const Material& m, double r) {
+    constexpr double saint_venant = 0.14057701495515552;
+    const double cube = 8 * r * r * r, G = m.young / (2 * (1 + m.poisson));
+    const double k_b = m.young * cube / 12, k_t = saint_venant * G * cube;
+    return {k_b, k_t, k_b / r, k_t / r};
+  }
+
+  /// For component c of the relative rotation of a bond in direction D.
+  template <int D>
+  GEIST_INLINE double turn(int c) const {
+    return directions[D][static_cast<std::size_t>(c)] != 0 ? twist : bend;
+  }
+};
+
+/// Bonds of the endless consistent lattice.
+struct EndlessBond : Bending {
+  ElasticBond elastic;
+
+  static EndlessBond from(const Material& m, double r) {
+    return {Bending::from(m, r), ElasticBond::from(m, r)};
+  }
+  template <int D, class T>
+  GEIST_INLINE void force(const T (&d)[3], T (&f)[3]) const {
+    elastic.force<D>(d, f);
+  }
+};
+
+/// Bonds of the one site, or eight sites, whose classes these are.
+template <class T>
+struct ClassBonds : Bending {
+  static constexpr int count = sizeof(T) / sizeof(double);
+  const BondClass* of[count];
+
+  ClassBonds(const Bending& bending, const BondClass* classes, const std::uint32_t* class_of)
+      : Bending(bending) {
+    for (int l = 0; l < count; ++l) of[l] = classes + class_of[l];
+  }
+  template <int D>
+  GEIST_INLINE T gather(const std::array<double, 18> BondClass::*member) const {
+    if constexpr (count == 1) {
+      return (of[0]->*member)[D];
+    } else {
+      T k;
+      for (int l = 0; l < count; ++l) k[l] = (of[l]->*member)[D];
+      return k;
+    }
+  }
+  template <int D>
+  GEIST_INLINE void force(const T (&d)[3], T (&f)[3]) const {
+    springs<D>(d, gather<D>(&BondClass::shear), gather<D>(&BondClass::along), f);
   }
 };
 

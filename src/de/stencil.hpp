@@ -99,9 +99,9 @@ struct SiteBonds {
 };
 
 /// Force and moment of all bonds on the site(s) at s.
-template <class T, class Bonds>
+template <class T, class Law, class Bonds>
 GEIST_INLINE void site_force(const MotionView& x, std::size_t s, const std::ptrdiff_t (&offset)[18],
-                             const ElasticBond& law, double r, Bonds bonds, T (&f)[6]) {
+                             const Law& law, double r, Bonds bonds, T (&f)[6]) {
   T i[6];
   for (int c = 0; c < 6; ++c) i[c] = read<T>(x.c[c] + s), f[c] = constant<T>(0);
   const auto add_bond = [&]<int D>() __attribute__((always_inline)) {
@@ -109,10 +109,13 @@ GEIST_INLINE void site_force(const MotionView& x, std::size_t s, const std::ptrd
     T j[6], d[3], fc[3], arm[3];
     for (int c = 0; c < 6; ++c) j[c] = read<T>(x.c[c] + s + offset[D]);
     relative_displacement<D>(i, j, r, d);
-    law.force<ex, ey, ez>(d, fc);
+    law.template force<D>(d, fc);
     for (int c = 0; c < 3; ++c) fc[c] = bonds.template keep<D>(fc[c]);
     cross_step<ex, ey, ez>(fc, arm);  // fc × e; the moment is r e × fc
     for (int c = 0; c < 3; ++c) f[c] = f[c] + fc[c], f[3 + c] = f[3 + c] - arm[c];
+    if constexpr (Law::bends && group(D) == 1)
+      for (int c = 3; c < 6; ++c)
+        f[c] = f[c] + bonds.template keep<D>(law.template turn<D>(c - 3) * (j[c] - i[c]));
   };
   [&]<int... D>(std::integer_sequence<int, D...>) __attribute__((always_inline)) {
     (add_bond.template operator()<D>(), ...);
@@ -121,15 +124,19 @@ GEIST_INLINE void site_force(const MotionView& x, std::size_t s, const std::ptrd
   for (int c = 3; c < 6; ++c) f[c] = f[c] * r;
 }
 
-/// Energy ½ f·d of the bond in direction D at the site(s) at s, as if it existed.
-template <int D, class T>
-GEIST_INLINE T bond_energy(const MotionView& x, std::size_t s, std::ptrdiff_t offset, const ElasticBond& law,
+/// Energy ½ f·d + ½ m·(θ_j − θ_i) of the bond in direction D at the site(s) at s, as if it existed.
+template <int D, class T, class Law>
+GEIST_INLINE T bond_energy(const MotionView& x, std::size_t s, std::ptrdiff_t offset, const Law& law,
                            double r) {
   T i[6], j[6], d[3], f[3];
   for (int c = 0; c < 6; ++c) i[c] = read<T>(x.c[c] + s), j[c] = read<T>(x.c[c] + s + offset);
   relative_displacement<D>(i, j, r, d);
-  law.force<directions[D][0], directions[D][1], directions[D][2]>(d, f);
-  return 0.5 * (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);
+  law.template force<D>(d, f);
+  T twice = f[0] * d[0] + f[1] * d[1] + f[2] * d[2];
+  if constexpr (Law::bends && group(D) == 1)
+    for (int c = 3; c < 6; ++c)
+      twice = twice + r * law.template turn<D>(c - 3) * (j[c] - i[c]) * (j[c] - i[c]);
+  return 0.5 * twice;
 }
 
 }  // namespace geist::de

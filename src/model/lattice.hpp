@@ -45,6 +45,8 @@ inline constexpr std::uint32_t particle = 1u << 18;
 inline constexpr std::uint32_t ghost = 1u << 19;
 /// A particle that only bonds act on: the lattice kernel advances it. Otherwise its force is handed over.
 inline constexpr std::uint32_t free = 1u << 20;
+/// Its bonds are not those of the endless lattice: see Lattice::class_of. Consistent lattices only.
+inline constexpr std::uint32_t surface = 1u << 21;
 /// An inner particle: all bonds, free.
 inline constexpr std::uint32_t inner = bonds | particle | free;
 }  // namespace site
@@ -91,6 +93,13 @@ struct Ghost {
   std::array<double, 8> N;  ///< (8) at xi
 };
 
+/// Springs of a site's bonds, by direction: the force of a bond along e (in steps of the grid) at relative
+/// displacement d is shear d + along (d·e) e.
+struct BondClass {
+  std::uint32_t neighbours = 0;  ///< which of the 26 places around are occupied: bit 9(c+1) + 3(b+1) + (a+1)
+  std::array<double, 18> shear{}, along{};
+};
+
 struct Lattice {
   std::string name;
   Material material;
@@ -98,6 +107,11 @@ struct Lattice {
   double mass = 0, inertia = 0;  ///< of one particle: m_d and I_d (a ghost's I_g = I_d)
 
   std::vector<std::uint32_t> word;  ///< one for each site
+
+  // Consistent lattices only (published ones have no classes): the class of every site; 0 is the endless
+  // lattice's.
+  std::vector<BondClass> classes;
+  std::vector<std::uint32_t> class_of;
 
   // State: components 0–2 of motion are the displacement u, 3–5 the rotation θ (radians); of velocity v and
   // ω.
@@ -118,6 +132,7 @@ struct Lattice {
   std::vector<std::int32_t> ghost_slot;  ///< ghost g's place in listed
 
   double radius() const { return grid.pitch / 2; }
+  bool consistent() const { return !classes.empty(); }
   bool is(std::size_t s, std::uint32_t flag) const { return word[s] & flag; }
   std::size_t count(std::uint32_t flag) const;
 };

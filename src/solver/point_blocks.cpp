@@ -1,7 +1,7 @@
 #include "solver/point_blocks.hpp"
 
+#include <array>
 #include <map>
-#include <utility>
 
 #include "core/parallel.hpp"
 #include "de/stiffness.hpp"
@@ -34,10 +34,11 @@ void multiply(const Eigen::Matrix<double, N, N>& A, const double* x, double* y) 
 }
 
 /// Stiffness of a site's bonds against its own motion.
-Eigen::Matrix<double, 6, 6> own_stiffness(const std::array<de::BondMatrices, 18>& bonds, std::uint32_t word) {
-  Eigen::Matrix<double, 6, 6> K = Eigen::Matrix<double, 6, 6>::Zero();
+de::Matrix6 own_stiffness(const de::BondMatrices& bonds, const Lattice& lattice, std::size_t s) {
+  de::Matrix6 K = de::Matrix6::Zero();
   for (int d = 0; d < 18; ++d)
-    if (word >> d & 1) K += bonds[d].B_i.transpose() * bonds[d].K * bonds[d].B_i;
+    if (lattice.word[s] >> d & 1)
+      K += bonds.strain(d).B_i.transpose() * bonds.stiffness(s, d) * bonds.strain(d).B_i;
   return K;
 }
 
@@ -65,19 +66,20 @@ void PointBlocks::add_elements(const Model& model, const Places& places) {
 
 void PointBlocks::add_lattice(const Lattice& lattice, std::int32_t l, const Model& model,
                               const Places& places) {
-  const auto bonds = de::bond_matrices(lattice);
-  std::map<std::pair<std::uint32_t, int>, std::int32_t> known;
+  const de::BondMatrices bonds(lattice);
+  std::map<std::array<std::uint32_t, 3>, std::int32_t> known;  // by bonds, law and freedom
   for (std::size_t s = 0; s < lattice.grid.size(); ++s) {
     const std::int32_t k = places.of_site(l, s);
     if (k < 0) continue;
-    const std::uint32_t word = lattice.word[s] & site::bonds;
+    const int free = places[k].free;
     const auto index = static_cast<std::int32_t>(sites_.size());
-    const auto [it, is_new] = known.try_emplace({word, places[k].free}, index);
-    if (is_new) sites_.push_back(inverse_over<6>(own_stiffness(bonds, word), places[k].free));
+    const auto [it, is_new] = known.try_emplace(
+        {lattice.word[s] & site::bonds, bonds.law_of(s), static_cast<std::uint32_t>(free)}, index);
+    if (is_new) sites_.push_back(inverse_over<6>(own_stiffness(bonds, lattice, s), free));
     of_place_[k] = -1 - it->second;
   }
   for (const Ghost& ghost : lattice.ghosts) {
-    const Eigen::Matrix3d K = own_stiffness(bonds, lattice.word[ghost.site]).topLeftCorner<3, 3>();
+    const Eigen::Matrix3d K = own_stiffness(bonds, lattice, ghost.site).topLeftCorner<3, 3>();
     for (int I = 0; I < 8; ++I) nodes_[model.mesh.elements[ghost.element][I]] += ghost.N[I] * ghost.N[I] * K;
   }
 }

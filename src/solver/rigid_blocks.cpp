@@ -12,7 +12,7 @@
 namespace geist {
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using de::Matrix6;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
 /// Pᵀ K P, lower triangle, in blocks of 6 × 6.
@@ -109,10 +109,10 @@ class Assembly {
     }
   }
 
-  /// The relative displacement of a bond by the motions of blocks.
+  /// The strain of a bond by the motions of blocks.
   struct Strain {
-    std::vector<std::pair<std::int32_t, Matrix36>> by_block;
-    void add(std::int32_t block, const Matrix36& B) {
+    std::vector<std::pair<std::int32_t, Matrix6>> by_block;
+    void add(std::int32_t block, const Matrix6& B) {
       for (auto& [b, sum] : by_block)
         if (b == block) {
           sum += B;
@@ -123,7 +123,7 @@ class Assembly {
   };
 
   void add_bonds(const Lattice& lattice, std::size_t l) {
-    const auto bonds = de::bond_matrices(lattice);
+    const de::BondMatrices bonds(lattice);
     std::vector<const Ghost*> ghost_at(lattice.grid.size(), nullptr);
     for (const Ghost& ghost : lattice.ghosts) ghost_at[ghost.site] = &ghost;
     Strain strain;
@@ -136,14 +136,14 @@ class Assembly {
             moves_rigidly(j, 0b111111))
           continue;
         strain.by_block.clear();
-        add_end(i, ghost_at[s], bonds[d].B_i, strain);
-        add_end(j, ghost_at[t], bonds[d].B_j, strain);
-        add_energy(strain, bonds[d].K);
+        add_end(i, ghost_at[s], bonds.strain(d).B_i, strain);
+        add_end(j, ghost_at[t], bonds.strain(d).B_j, strain);
+        add_energy(strain, bonds.stiffness(s, d));
       }
   }
 
   /// What a bond's end at place k adds to its strain.
-  void add_end(std::size_t k, const Ghost* ghost, const Matrix36& B, Strain& strain) const {
+  void add_end(std::size_t k, const Ghost* ghost, const Matrix6& B, Strain& strain) const {
     strain.add(places_.block_of(k), B.lazyProduct(motion(k)));
     if (!ghost) return;
     for (int I = 0; I < 8; ++I) {
@@ -153,9 +153,9 @@ class Assembly {
     }
   }
 
-  void add_energy(const Strain& strain, const Eigen::Matrix3d& K) {
+  void add_energy(const Strain& strain, const Matrix6& K) {
     for (const auto& [b, B_b] : strain.by_block) {
-      const Matrix36 force = K.lazyProduct(B_b);
+      const Matrix6 force = K.lazyProduct(B_b);
       for (const auto& [a, B_a] : strain.by_block)
         if (a >= b) sum_.add(a, b, B_a.transpose().lazyProduct(force));
     }

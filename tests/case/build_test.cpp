@@ -76,6 +76,35 @@ TEST(Build, TakesTheTimeStepGivenUnlessItIsTooLong) {
   expect_build_error(text, "[analysis]", {"time_step = 0.01", "safe bound", "region '"});
 }
 
+TEST(Build, MakesConsistentLattices) {
+  EXPECT_FALSE(build(small_case()).simulation.model.lattices[0].consistent());
+  std::string text = materials + two_regions + dynamic;
+  text = "method = \"consistent\"\n" + text;
+  EXPECT_TRUE(build(read_case_text(text, "small.toml")).simulation.model.lattices[0].consistent());
+  const std::string poisson = "poisson = 0.2";
+  text.replace(text.find(poisson), poisson.size(), "poisson = 0.3");
+  expect_build_error(text, "[regions.right]", {"'right'", "poisson = 0.3", "negative stiffness", "0.2500"});
+}
+
+/// Particles that fill a cavity have whole cells around them, corners and all.
+TEST(Build, ConsistentLatticesEndWhereTheMaterialDoes) {
+  const std::string cavity =
+      "[regions.shell]\ntype = \"hexahedra\"\nmaterial = \"m\"\nbox = [[0, 0, 0], [3, 3, 3]]\n"
+      "divisions = [3, 3, 3]\nminus = [{ box = [[1, 1, 1], [2, 2, 2]] }]\n"
+      "[regions.core]\ntype = \"lattice\"\nmaterial = \"m\"\nbox = [[1, 1, 1], [2, 2, 2]]\nradius = 0.125\n";
+  const auto ghosts_with = [&](const std::string& method) {
+    const Case input = read_case_text(method + materials + cavity + dynamic, "cavity.toml");
+    const Model model = build(input).simulation.model;
+    const Lattice& lattice = model.lattices[0];
+    for (std::size_t s = 0; s < lattice.word.size(); ++s) {
+      EXPECT_FALSE(lattice.is(s, site::particle) && lattice.is(s, site::surface));
+    }
+    return lattice.ghosts.size();
+  };
+  EXPECT_EQ(ghosts_with("method = \"consistent\"\n"), 6u * 6 * 6 - 64);
+  EXPECT_EQ(ghosts_with(""), 6u * 6 * 6 - 64 - 8);
+}
+
 TEST(Build, TakesDamping) {
   EXPECT_EQ(build(small_case("", {"analysis.damping=2.5"})).simulation.alpha, 2.5);
 }

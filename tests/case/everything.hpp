@@ -4,6 +4,7 @@
 namespace geist {
 
 inline const char* const everything = R"(title = "Everything: \"quotes\", \t tabs and µ"
+method = "consistent"
 [units]
 length = "mm"
 mass = "t"

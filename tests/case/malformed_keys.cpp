@@ -27,7 +27,7 @@ constexpr Malformed keys[] = {
      "[windmill]",
      42,
      2,
-     {"unknown key 'windmill'; known: title, units"}},
+     {"unknown key 'windmill'; known: title, method, units"}},
     {"MaterialForMaterials", "[materials.polymer]", "[material.polymer]", 1, 1, {"needs 'materials'"}, 4},
     {"UnknownKeyInMaterial", "young = 1000", "yuong = 1000", 4, 1, {"'materials.polymer' needs 'young'"}, 2},
     {"ExtraKeyInMaterial",

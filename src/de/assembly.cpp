@@ -1,0 +1,243 @@
+#include "de/assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace geist::de {
+namespace {
+
+using Step = std::array<int, 3>;
+
+Step unit(std::size_t axis, int sign) {
+  Step e{};
+  e[axis] = sign;
+  return e;
+}
+
+Step operator+(Step a, Step b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+/// Whether the site itself or its neighbour there is occupied.
+struct Occupied {
+  std::uint32_t neighbours;
+  bool operator()(Step e) const {
+    return (neighbours | neighbour_bit(0, 0, 0)) & neighbour_bit(e[0], e[1], e[2]);
+  }
+};
+
+/// The cube that the edge e spans with b and c: a cell, or skins and bars.
+Parts edge_in_cube(Occupied at, Step e, Step b, Step c) {
+  const bool face_b = at(b) && at(e + b), face_c = at(c) && at(e + c);
+  if (face_b && face_c && at(b + c) && at(e + b + c)) return {1, 0, 0, 0};
+  const int skins = face_b + face_c;
+  return {0, skins, 1 - skins, skins == 0};
+}
+
+/// The cube on side c of the face with the edges a and b, for the diagonal a + b.
+Parts diagonal_in_cube(Occupied at, Step a, Step b, Step c) {
+  if (!at(a) || !at(b)) return {};
+  const bool cell = at(c) && at(a + c) && at(b + c) && at(a + b + c);
+  return {cell, !cell, 0, 0};
+}
+
+std::uint32_t neighbours_of(const Lattice& lattice, std::size_t s) {
+  const Grid& grid = lattice.grid;
+  const auto [i, j, k] = grid.ijk(s);
+  std::uint32_t bits = 0;
+  for (int c = -1; c <= 1; ++c)
+    for (int b = -1; b <= 1; ++b)
+      for (int a = -1; a <= 1; ++a)
+        if (grid.contains(i + a, j + b, k + c) &&
+            lattice.is(grid.index(i + a, j + b, k + c), site::particle | site::ghost))
+          bits |= neighbour_bit(a, b, c);
+  return bits & all_neighbours;
+}
+
+bool has_neighbour(std::uint32_t neighbours, int d) {
+  const auto [a, b, c] = directions[static_cast<std::size_t>(d)];
+  return neighbours & neighbour_bit(a, b, c);
+}
+
+BondClass make_class(std::uint32_t neighbours, const Material& material, double r) {
+  BondClass made;
+  made.neighbours = neighbours;
+  for (int d = 0; d < 18; ++d) {
+    if (!has_neighbour(neighbours, d)) continue;
+    const ElasticBond bond = assembled(parts_of(neighbours, d), group(d), material, r);
+    made.shear[static_cast<std::size_t>(d)] = bond.k_s;
+    made.along[static_cast<std::size_t>(d)] = (bond.k_n - bond.k_s) / group(d);
+  }
+  return made;
+}
+
+using Kinds = std::set<std::pair<int, Parts>>;  ///< group and parts of every bond that differs
+
+Kinds kinds_of(const Lattice& lattice) {
+  std::set<std::uint32_t> done;
+  Kinds kinds;
+  for (std::size_t s = 0; s < lattice.word.size(); ++s) {
+    const std::uint32_t neighbours = lattice.classes[lattice.class_of[s]].neighbours;
+    if (!lattice.is(s, site::particle) || !done.insert(neighbours).second) continue;
+    for (int d = 0; d < 18; ++d)
+      if (has_neighbour(neighbours, d)) kinds.insert({group(d), parts_of(neighbours, d)});
+  }
+  return kinds;
+}
+
+/// Whether no spring of that kind is negative at this ν, but for rounding.
+bool holds(const std::pair<int, Parts>& kind, double poisson) {
+  const ElasticBond bond = assembled(kind.second, kind.first, {"", 0, 1, poisson}, 1);
+  return std::min(bond.k_n, bond.k_s) >= -1e-12;
+}
+
+/// The ν next to `limit` at which the kind still holds. All hold from 0 to ¼.
+double last_poisson(const std::pair<int, Parts>& kind, double limit) {
+  double good = 0.125, bad = limit;
+  for (int n = 0; n < 60; ++n) (holds(kind, (good + bad) / 2) ? good : bad) = (good + bad) / 2;
+  return good;
+}
+
+std::string words(const std::pair<int, Parts>& kind) {
+  const auto& [group, parts] = kind;
+  std::string text = fmt::format("{} of {} cells and {} skins", group == 1 ? "sides" : "diagonals",
+                                 parts.cells, parts.skins);
+  if (parts.bars != 0) text += fmt::format(", {} edge bars", parts.bars);
+  return text;
+}
+
+void check_stiffness(const Lattice& lattice) {
+  const double poisson = lattice.material.poisson;
+  const Kinds kinds = kinds_of(lattice);
+  const auto weak =
+      std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return !holds(kind, poisson); });
+  if (weak == kinds.end()) return;
+  double least = -1, most = 0.5;
+  for (const auto& kind : kinds) {
+    least = std::max(least, last_poisson(kind, -1));
+    most = std::min(most, last_poisson(kind, 0.5));
+  }
+  throw std::invalid_argument(fmt::format(
+      "poisson = {} gives some bonds negative stiffness ({}); this lattice allows {:.4f} to {:.4f}", poisson,
+      words(*weak), least, most));
+}
+
+Eigen::Matrix3d stiffness_matrix(double shear, double along, const Eigen::Vector3d& e) {
+  return shear * Eigen::Matrix3d::Identity() + along * e * e.transpose();
+}
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Bᵀ K B, where B (u, θ) is what the motion of one end adds to d.
+Matrix6 at_one_end(const Eigen::Matrix3d& K, const Eigen::Vector3d& e, double r) {
+  Eigen::Matrix<double, 3, 6> B;
+  B.leftCols<3>() = -Eigen::Matrix3d::Identity();
+  for (int c = 0; c < 3; ++c) B.col(3 + c) = r * e.cross(Eigen::Vector3d::Unit(c));
+  return B.transpose() * K * B;
+}
+
+/// The endless lattice's bond to an empty place, cut: all of its energy at motion 0 over there.
+Matrix6 cut_bond(const EndlessBond& law, const Eigen::Vector3d& e, double r) {
+  const ElasticBond& bond = law.elastic;
+  Matrix6 cut = at_one_end(stiffness_matrix(bond.k_s, (bond.k_n - bond.k_s) / e.squaredNorm(), e), e, r);
+  if (e.squaredNorm() == 1) {
+    const Eigen::Matrix3d along = e * e.transpose(), across = Eigen::Matrix3d::Identity() - along;
+    cut.bottomRightCorner<3, 3>() += law.k_b * across + law.k_t * along;
+  }
+  return cut;
+}
+
+/// Twice what a bond at one end adds at most where it is stiffer than the endless lattice's:
+/// |a + b|² ≤ 2|a|² + 2|b|².
+Matrix6 stiffer_bond(const BondClass& kind, std::size_t d, const ElasticBond& bond, const Eigen::Vector3d& e,
+                     double r) {
+  const double g = e.squaredNorm(), shear = kind.shear[d], normal = shear + g * kind.along[d];
+  const double more_s = std::max(0.0, shear - bond.k_s), more_n = std::max(0.0, normal - bond.k_n);
+  return 2 * at_one_end(stiffness_matrix(more_s, (more_n - more_s) / g, e), e, r);
+}
+
+}  // namespace
+
+Parts parts_of(std::uint32_t neighbours, int d) {
+  const Occupied at{neighbours};
+  const Step e = directions[static_cast<std::size_t>(d)];
+  std::array<std::size_t, 3> across{}, along{};
+  std::size_t n_across = 0, n_along = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (e[axis] == 0)
+      across[n_across++] = axis;
+    else
+      along[n_along++] = axis;
+  Parts sum;
+  const auto add = [&sum](const Parts& p) {
+    sum.cells += p.cells, sum.skins += p.skins, sum.bars += p.bars, sum.lone_bars += p.lone_bars;
+  };
+  for (const int b : {-1, 1}) {
+    if (n_across == 1)
+      add(diagonal_in_cube(at, unit(along[0], e[along[0]]), unit(along[1], e[along[1]]), unit(across[0], b)));
+    else
+      for (const int c : {-1, 1}) add(edge_in_cube(at, e, unit(across[0], b), unit(across[1], c)));
+  }
+  return sum;
+}
+
+ElasticBond assembled(const Parts& parts, int group, const Material& material, double r) {
+  const double E = material.young, nu = material.poisson, G = E / (2 * (1 + nu));
+  const ElasticBond cell = ElasticBond::from(material, r);
+  if (group == 2) {
+    const double share = 0.5 * parts.cells, k_n2 = r * nu * E / (1 - nu * nu);
+    return {share * cell.k_n + parts.skins * k_n2, share * cell.k_s};
+  }
+  const double share = 0.25 * parts.cells, skin = 0.5 * parts.skins;
+  const double k_n1 = r * E / (1 + nu), k_s1 = k_n1 * (1 - 3 * nu) / (1 - nu);
+  return {share * cell.k_n + skin * k_n1 + parts.bars * (E * r / 2),
+          share * cell.k_s + skin * k_s1 + parts.lone_bars * (5.0 / 6 * G * r / 2)};
+}
+
+void assemble(Lattice& lattice) {
+  const double r = lattice.radius();
+  lattice.classes.assign(1, make_class(all_neighbours, lattice.material, r));
+  lattice.class_of.assign(lattice.grid.size(), 0);
+  std::map<std::uint32_t, std::uint32_t> index{{all_neighbours, 0}};
+  for (std::size_t s = 0; s < lattice.word.size(); ++s) {
+    lattice.word[s] &= ~site::surface;
+    if (!lattice.is(s, site::particle | site::ghost)) continue;
+    const std::uint32_t neighbours = neighbours_of(lattice, s);
+    const auto [at, is_new] = index.emplace(neighbours, lattice.classes.size());
+    if (is_new) lattice.classes.push_back(make_class(neighbours, lattice.material, r));
+    lattice.class_of[s] = at->second;
+    if (at->second != 0) lattice.word[s] |= site::surface;
+  }
+  check_stiffness(lattice);
+}
+
+double surface_excess(const Lattice& lattice) {
+  const double r = lattice.radius();
+  const EndlessBond law = EndlessBond::from(lattice.material, r);
+  Eigen::Matrix<double, 6, 1> scale;
+  scale << Eigen::Vector3d::Constant(1 / std::sqrt(lattice.mass)),
+      Eigen::Vector3d::Constant(1 / std::sqrt(lattice.inertia));
+  double most = 0;
+  for (const BondClass& kind : lattice.classes) {
+    Matrix6 S = Matrix6::Zero();
+    for (int d = 0; d < 18; ++d) {
+      const auto at = static_cast<std::size_t>(d);
+      const Eigen::Vector3d e(directions[at][0], directions[at][1], directions[at][2]);
+      if (has_neighbour(kind.neighbours, d))
+        S += stiffer_bond(kind, at, law.elastic, e, r);
+      else
+        S -= cut_bond(law, e, r);
+    }
+    const Matrix6 A = scale.asDiagonal() * S * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(A, Eigen::EigenvaluesOnly);
+    most = std::max(most, solver.eigenvalues()(5));
+  }
+  return most;
+}
+
+}  // namespace geist::de
