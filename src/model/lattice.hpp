@@ -13,6 +13,7 @@
 #include "core/field.hpp"
 #include "core/pack.hpp"
 #include "core/vec.hpp"
+#include "model/kinematics.hpp"
 #include "model/material.hpp"
 
 namespace geist {
@@ -103,6 +104,7 @@ struct BondClass {
 struct Lattice {
   std::string name;
   Material material;
+  Kinematics kinematics = Kinematics::small;
   Grid grid;
   double mass = 0, inertia = 0;  ///< of one particle: m_d and I_d (a ghost's I_g = I_d)
 

@@ -20,6 +20,7 @@
 
 #include "core/field.hpp"
 #include "core/pack.hpp"
+#include "model/kinematics.hpp"
 #include "model/material.hpp"
 
 namespace geist {
@@ -42,6 +43,7 @@ struct HexRegion {
 
 struct Mesh {
   // What it is made of
+  Kinematics kinematics = Kinematics::small;
   std::vector<Vec3> points;                           ///< reference positions X_I, by node
   std::vector<std::array<std::int32_t, 8>> elements;  ///< corner nodes, by element, region after region
   std::vector<HexRegion> regions;
