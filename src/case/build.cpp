@@ -8,6 +8,7 @@
 #include "case/boundary.hpp"
 #include "case/contact_laws.hpp"
 #include "case/diagnostic.hpp"
+#include "coupling/cut.hpp"
 #include "coupling/interfaces.hpp"
 #include "de/assembly.hpp"
 #include "fe/elements.hpp"
@@ -108,7 +109,6 @@ void make_regions(Model& model, const Case& input) {
     });
   separate_contacts(model.mesh, input);
   finish(model.mesh);
-  fe::lump_masses(model.mesh);
 }
 
 const RegionSpec& spec_of(const Case& input, const std::string& name) {
@@ -131,6 +131,11 @@ coupling::LoosePairs loose_pairs(const Model& model, const Case& input, const Lo
   return loose;
 }
 
+GhostRotation ghost_rotation(const std::string& word) {
+  if (word == "continuum") return GhostRotation::continuum;
+  return word == "none" ? GhostRotation::none : GhostRotation::own;
+}
+
 /// Ghosts, bonds, state and lists of all lattices.
 void couple(Model& model, const Case& input) {
   const Locator locator(model.mesh);
@@ -142,6 +147,7 @@ void couple(Model& model, const Case& input) {
     for (const HexRegion& region : model.mesh.regions)
       without_ghosts.push_back(loose.contains(lattice.name, region.name));
     const bool cells = input.method == "consistent";
+    lattice.ghost_rotation = ghost_rotation(input.rotation);
     coupling::place_ghosts(lattice, model.mesh, locator, without_ghosts,
                            cells ? coupling::Reach::cells : coupling::Reach::bonds);
   }
@@ -154,13 +160,16 @@ void couple(Model& model, const Case& input) {
       at_region(input, spec_of(input, lattice.name), [&] { de::assemble(lattice); });
     finish(lattice);
   }
+  if (input.method == "consistent" && coupled)
+    fe::set_cuts(model.mesh, coupling::cut_hexahedra(model, locator));
+  fe::lump_masses(model.mesh);
 }
 
-/// Ghosts without rotation (the conference paper's) do not spin.
-void hold_ghost_spins(Model& model, const Case& input) {
-  if (input.rotation == "one-step-back") return;
+/// Ghosts that do not spin by themselves: their rotation is not for the kick.
+void hold_ghost_spins(Model& model) {
   for (Lattice& lattice : model.lattices)
-    for (const std::int32_t slot : lattice.ghost_slot) lattice.listed_held[slot] = 0b111111;
+    if (lattice.ghost_rotation != GhostRotation::own)
+      for (const std::int32_t slot : lattice.ghost_slot) lattice.listed_held[slot] = 0b111111;
 }
 
 double choose_time_step(const Case& input, const std::vector<TimeStepBound>& bounds) {
@@ -185,7 +194,7 @@ Built build(const Case& input) {
   sim.supports = make_supports(input, selector);
   sim.loads = make_loads(input, selector);
   list_acted_on(sim);
-  hold_ghost_spins(sim.model, input);
+  hold_ghost_spins(sim.model);
   set_initial_motion(sim.model, input, selector);
   built.probes = make_probes(input, selector, sim);
   sim.reactions = coupling::Reactions(sim.model);

@@ -135,7 +135,7 @@ struct Case {
   std::map<std::string, Material> materials;
   std::vector<RegionSpec> regions;           ///< in file order
   std::string coupling = "ghost-particles";  ///< or "none"
-  std::string rotation = "one-step-back";    ///< or "none"
+  std::string rotation = "one-step-back";    ///< or "continuum", "none"
   Source coupling_source;
   std::vector<ContactSpec> contact;
   std::map<std::string, Curve> curves;

@@ -180,11 +180,13 @@ void drop_outvoted(Document& document) {
 }
 
 void fill_defaults(toml::table& root, const Table& root_kind) {
-  for_each_table(root, root_kind, [](toml::table& table, const Table& kind) {
+  const bool published = holds(root, root_kind, {"method", "published"}) == Holds::yes;
+  for_each_table(root, root_kind, [published](toml::table& table, const Table& kind) {
     for (const Key& key : kind.keys) {
       if (key.fallback.empty() || table.contains(key.name)) continue;
       if (holds(table, kind, key.only) != Holds::yes) continue;
-      toml::table parsed = toml::parse("value = " + std::string(key.fallback));
+      const bool own = published && !key.published.empty();
+      toml::table parsed = toml::parse("value = " + std::string(own ? key.published : key.fallback));
       parsed.for_each([&](const toml::key&, auto& value) { table.insert(key.name, std::move(value)); });
     }
   });

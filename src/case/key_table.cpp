@@ -124,7 +124,7 @@ std::vector<Key> region_details() {
           "rotary_inertia", {"sphere", "cube"},
           "Rotary inertia of a particle: 2/5 m r² of a sphere, as published, or m (2r)²/6 of the cubic cell, "
           "which allows a longer time step.")
-          .otherwise("\"sphere\"")
+          .otherwise("\"cube\"", "\"sphere\"")
           .when(lattice)};
 }
 
@@ -202,16 +202,18 @@ Table ball() {
 }
 
 Table coupling() {
-  return {"coupling",
-          "[coupling]",
-          "Ghost particles are made wherever an empty site within a bond's reach of a particle lies inside a "
-          "hexahedron; nothing else needs to be said about the interfaces.",
-          {choice("type", {"ghost-particles", "none"}, "How particles and hexahedra are tied.")
-               .otherwise("\"ghost-particles\""),
-           choice("rotation", {"one-step-back", "none"},
-                  "Whether ghosts spin (one-step-back, as in the journal paper) or do not turn at all (none, "
-                  "as in the conference paper, for comparison).")
-               .otherwise("\"one-step-back\"")}};
+  return {
+      "coupling",
+      "[coupling]",
+      "Ghost particles are made wherever an empty site within a bond's reach of a particle lies inside a "
+      "hexahedron; nothing else needs to be said about the interfaces.",
+      {choice("type", {"ghost-particles", "none"}, "How particles and hexahedra are tied.")
+           .otherwise("\"ghost-particles\""),
+       choice("rotation", {"continuum", "one-step-back", "none"},
+              "Whether ghosts turn with the continuum (by half the curl of its displacement), spin by "
+              "themselves (one-step-back, as in the journal paper) or do not turn at all (none, as in the "
+              "conference paper, for comparison).")
+           .otherwise("\"continuum\"", "\"one-step-back\"")}};
 }
 
 Table curves() {

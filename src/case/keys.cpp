@@ -48,6 +48,12 @@ Key Key::otherwise(std::string_view toml) const {
   key.fallback = toml;
   return key;
 }
+
+Key Key::otherwise(std::string_view toml, std::string_view published_toml) const {
+  Key key = otherwise(toml);
+  key.published = published_toml;
+  return key;
+}
 Key Key::when(Condition condition) const {
   Key key = *this;
   key.only = condition;

@@ -57,10 +57,11 @@ struct Condition {
 struct Key {
   std::string_view name;
   Type type;
-  std::string_view unit;           ///< dimension, or "-"
-  std::string_view text;           ///< one sentence for the reference
-  Range range = {};                ///< of the number, or of each number of a list
-  std::string_view fallback = {};  ///< default in TOML; empty: none
+  std::string_view unit;            ///< dimension, or "-"
+  std::string_view text;            ///< one sentence for the reference
+  Range range = {};                 ///< of the number, or of each number of a list
+  std::string_view fallback = {};   ///< default in TOML; empty: none
+  std::string_view published = {};  ///< default of the published method, if it has one of its own
   bool needed = false;
   std::vector<std::string_view> allowed = {};  ///< the choices
   std::string_view of = {};  ///< name of the table's kind, or of the root table that a reference looks in
@@ -74,6 +75,7 @@ struct Key {
   Key required() const;
   Key required_when(Condition condition) const;
   Key otherwise(std::string_view toml) const;
+  Key otherwise(std::string_view toml, std::string_view published) const;
   Key when(Condition condition) const;
 
   /// What is allowed, for messages: "a number > 0".

@@ -151,6 +151,8 @@ constexpr std::string_view coherent = R"(
 )";
 
 std::string default_of(const Key& key) {
+  if (!key.published.empty())
+    return fmt::format("`{}`; `{}` with the published method", key.fallback, key.published);
   if (!key.fallback.empty()) return fmt::format("`{}`", key.fallback);
   if (key.needed) return "required";
   return key.needed_if.always() ? "–" : fmt::format("required where {}", key.needed_if.describe());

@@ -99,7 +99,7 @@ Json schema_of(const Key& key) {
   const std::string unit = key.unit == "-" ? "" : fmt::format(" Unit: {}.", key.unit);
   json["description"] = fmt::format("{}{}", key.text, unit);
   const Json fallback = Json::parse(key.fallback, nullptr, false);
-  if (!fallback.is_discarded()) json["default"] = fallback;
+  if (!fallback.is_discarded() && key.published.empty()) json["default"] = fallback;
   return json;
 }
 

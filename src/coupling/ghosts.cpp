@@ -34,36 +34,43 @@ void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator, co
     if (i >= grid.nx || lattice.word[s] || !within_reach(lattice, i, j, k, reach)) continue;
     const auto found = locator.find(grid.centre(s));
     if (found && (loose.empty() || !loose[region_of(mesh, found->element)]))
-      lattice.ghosts.push_back({s, found->element, found->xi, hex8::shape(found->xi)});
+      lattice.ghosts.push_back(
+          {s, found->element, found->xi, hex8::shape(found->xi),
+           hex8::position_gradient(hex8::corners(mesh, static_cast<std::size_t>(found->element)),
+                                   found->xi)});
   }
   for (const Ghost& ghost : lattice.ghosts) lattice.word[ghost.site] = site::ghost;
 }
 
 void follow(Lattice& lattice, const Mesh& mesh) {
-  double* const u[3] = {lattice.motion[0], lattice.motion[1], lattice.motion[2]};
-  const double* const u_node[3] = {mesh.u[0], mesh.u[1], mesh.u[2]};
-  const Ghost* const ghosts = lattice.ghosts.data();
-  const auto* const elements = mesh.elements.data();
-  const auto follow_one = [=](std::size_t g) {
-    const auto& node = elements[ghosts[g].element];
-    for (int c = 0; c < 3; ++c) {
-      double sum = 0;
-      for (int I = 0; I < 8; ++I) sum = fma(ghosts[g].N[I], u_node[c][node[I]], sum);
-      u[c][ghosts[g].site] = sum;
+  const bool turn = lattice.ghost_rotation == GhostRotation::continuum;
+  const auto follow_one = [&lattice, &mesh, turn](std::size_t g) {
+    const Ghost& ghost = lattice.ghosts[g];
+    Vec3 u, curl;
+    for (int I = 0; I < 8; ++I) {
+      const Vec3 u_I = mesh.u.vector(mesh.elements[ghost.element][I]);
+      for (int c = 0; c < 3; ++c) u[c] = fma(ghost.N[I], u_I[c], u[c]);
+      if (turn) curl += cross(ghost.gradient[I], u_I);
     }
+    lattice.motion.set(ghost.site, u);
+    if (turn) lattice.motion.set(ghost.site, 0.5 * curl, 3);
   };
-  for_each(lattice.ghosts.size(), follow_one, 2000);
+  for_each(lattice.ghosts.size(), follow_one, 1000);
 }
 
 Reactions::Reactions(const Model& model) {
   std::map<std::int32_t, std::vector<Entry>> by_node;
   for (std::size_t l = 0; l < model.lattices.size(); ++l) {
     const Lattice& lattice = model.lattices[l];
-    for (std::size_t g = 0; g < lattice.ghosts.size(); ++g)
+    const bool turn = lattice.ghost_rotation == GhostRotation::continuum;
+    for (std::size_t g = 0; g < lattice.ghosts.size(); ++g) {
+      const Ghost& ghost = lattice.ghosts[g];
       for (int I = 0; I < 8; ++I)
-        if (lattice.ghosts[g].N[I] != 0)
-          by_node[model.mesh.elements[lattice.ghosts[g].element][I]].push_back(
-              {static_cast<std::int32_t>(l), lattice.ghost_slot[g], lattice.ghosts[g].N[I]});
+        if (ghost.N[I] != 0 || turn)
+          by_node[model.mesh.elements[ghost.element][I]].push_back({static_cast<std::int32_t>(l),
+                                                                    lattice.ghost_slot[g], ghost.N[I],
+                                                                    turn ? 0.5 * ghost.gradient[I] : Vec3{}});
+    }
   }
   begin_.push_back(0);
   for (const auto& [node, entries] : by_node) {
@@ -74,29 +81,31 @@ Reactions::Reactions(const Model& model) {
 }
 
 void Reactions::add(Model& model) const {
-  struct ForceView {
-    const double* c[3];
-  };
-  std::vector<ForceView> views;
-  for (const Lattice& l : model.lattices)
-    views.push_back({{l.listed_force[0], l.listed_force[1], l.listed_force[2]}});
-  double* const f[3] = {model.mesh.f[0], model.mesh.f[1], model.mesh.f[2]};
-  const auto add_one = [=, force = views.data(), nodes = nodes_.data(), begin = begin_.data(),
-                        entries = entries_.data()](std::size_t n) {
-    for (int c = 0; c < 3; ++c) {
-      double sum = f[c][nodes[n]];
-      for (std::int32_t k = begin[n]; k < begin[n + 1]; ++k)
-        sum = fma(entries[k].N, force[entries[k].lattice].c[c][entries[k].slot], sum);
-      f[c][nodes[n]] = sum;
+  const auto add_one = [this, &model](std::size_t n) {
+    Vec3 sum = model.mesh.f.vector(nodes_[n]);
+    for (std::int32_t k = begin_[n]; k < begin_[n + 1]; ++k) {
+      const Entry& entry = entries_[k];
+      const Field<6>& on_listed = model.lattices[entry.lattice].listed_force;
+      const Vec3 force = on_listed.vector(entry.slot), moment = on_listed.vector(entry.slot, 3);
+      for (int c = 0; c < 3; ++c) sum[c] = fma(entry.N, force[c], sum[c]);
+      sum += cross(moment, entry.half_gradient);
     }
+    model.mesh.f.set(nodes_[n], sum);
   };
   for_each(nodes_.size(), add_one, 500);
 }
 
 std::vector<double> virtual_masses(const Lattice& lattice, const Mesh& mesh) {
+  // m_d |Σ N_I u_I|² ≤ m_d Σ N_I |u_I|², and I_d |½ Σ ∇N_I × u_I|² ≤ ¼ I_d (Σ_J |∇N_J|) Σ |∇N_I| |u_I|²
+  const bool turn = lattice.ghost_rotation == GhostRotation::continuum;
   std::vector<double> mass(mesh.nodes(), 0.0);
-  for (const Ghost& ghost : lattice.ghosts)
-    for (int I = 0; I < 8; ++I) mass[mesh.elements[ghost.element][I]] += ghost.N[I] * lattice.mass;
+  for (const Ghost& ghost : lattice.ghosts) {
+    double sum = 0;
+    for (const Vec3 gradient : ghost.gradient) sum += norm(gradient);
+    for (int I = 0; I < 8; ++I)
+      mass[mesh.elements[ghost.element][I]] +=
+          ghost.N[I] * lattice.mass + (turn ? 0.25 * lattice.inertia * sum * norm(ghost.gradient[I]) : 0);
+  }
   return mass;
 }
 

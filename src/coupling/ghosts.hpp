@@ -6,7 +6,13 @@
 //
 //   u_g = Σ N_I(ξ) u_I   (21, integrated)        f_I += N_I(ξ) f_g   (14)
 //
-// Its spin ("one-step back", (15)(24)) is a degree of freedom of the lattice and is advanced there.
+// Its rotation is half the curl of the hexahedron's displacement, and its moment goes back by the transpose:
+//
+//   θ_g = ½ Σ ∇N_I × u_I        f_I += ½ m_g × ∇N_I
+//
+// which adds no force, Σ ∇N_I = 0, and exactly the moment m_g, ½ Σ x_I × (m_g × ∇N_I) = ½ (3 m_g − m_g), as
+// Σ x_I ⊗ ∇N_I = 1. Or it spins by itself ("one-step back", (15)(24)): a degree of freedom of the lattice,
+// which is advanced there.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -26,10 +32,11 @@ enum class Reach { bonds, cells };
 void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator,
                   const std::vector<bool>& loose = {}, Reach reach = Reach::bonds);
 
-/// Displacement of all ghosts from that of the nodes.
+/// Displacement, and rotation if they turn with the continuum, of all ghosts from the nodes.
 void follow(Lattice& lattice, const Mesh& mesh);
 
-/// By node I, the mass that the ghosts would bring to it if they had that of a particle: Σ N_I m_d.
+/// By node I, the mass that the ghosts would bring to it, at most, if they had mass and inertia of a
+/// particle.
 std::vector<double> virtual_masses(const Lattice& lattice, const Mesh& mesh);
 
 /// The transpose of follow: which ghost forces act on which nodes, in fixed order.
@@ -38,13 +45,14 @@ class Reactions {
   Reactions() = default;
   explicit Reactions(const Model& model);
 
-  /// mesh.f += Σ N_I f_g over all ghosts of all lattices (14).
+  /// mesh.f += Σ N_I f_g (14), and ½ m_g × ∇N_I if they turn with the continuum, over all ghosts.
   void add(Model& model) const;
 
  private:
   struct Entry {
     std::int32_t lattice, slot;
     double N;
+    Vec3 half_gradient;  ///< ½ ∇N_I, or zero
   };
   std::vector<std::int32_t> nodes_, begin_;
   std::vector<Entry> entries_;

@@ -23,16 +23,28 @@ Step unit(std::size_t axis, int sign) {
 
 Step operator+(Step a, Step b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
-/// Whether the site itself or its neighbour there is occupied.
+constexpr std::uint32_t place_bit(int a, int b, int c) { return 1u << (9 * (c + 1) + 3 * (b + 1) + a + 1); }
+constexpr std::uint32_t everywhere = (1u << 27) - 1;
+constexpr Surroundings endless{everywhere, everywhere};
+
+/// Whether a step from the site leads to an occupied place.
 struct Occupied {
-  std::uint32_t neighbours;
-  bool operator()(Step e) const {
-    return (neighbours | neighbour_bit(0, 0, 0)) & neighbour_bit(e[0], e[1], e[2]);
-  }
+  std::uint32_t places;
+  bool operator()(Step e) const { return places & place_bit(e[0], e[1], e[2]); }
 };
 
+/// Places that the cube with edges e, b, c has its corners at.
+std::uint32_t cube(Step e, Step b, Step c) {
+  std::uint32_t places = 0;
+  for (const Step& s : {Step{}, e, b, c, e + b, e + c, b + c, e + b + c})
+    places |= place_bit(s[0], s[1], s[2]);
+  return places;
+}
+
 /// The cube that the edge e spans with b and c: a cell, or skins and bars.
-Parts edge_in_cube(Occupied at, Step e, Step b, Step c) {
+Parts edge_in_cube(Surroundings around, Step e, Step b, Step c) {
+  if (!(around.particles & cube(e, b, c))) return {};
+  const Occupied at{around.occupied};
   const bool face_b = at(b) && at(e + b), face_c = at(c) && at(e + c);
   if (face_b && face_c && at(b + c) && at(e + b + c)) return {1, 0, 0, 0};
   const int skins = face_b + face_c;
@@ -40,38 +52,46 @@ Parts edge_in_cube(Occupied at, Step e, Step b, Step c) {
 }
 
 /// The cube on side c of the face with the edges a and b, for the diagonal a + b.
-Parts diagonal_in_cube(Occupied at, Step a, Step b, Step c) {
-  if (!at(a) || !at(b)) return {};
+Parts diagonal_in_cube(Surroundings around, Step a, Step b, Step c) {
+  const Occupied at{around.occupied};
+  if (!(around.particles & cube(a, b, c)) || !at(a) || !at(b)) return {};
   const bool cell = at(c) && at(a + c) && at(b + c) && at(a + b + c);
   return {cell, !cell, 0, 0};
 }
 
-std::uint32_t neighbours_of(const Lattice& lattice, std::size_t s) {
+/// A particle's bonds are in cubes with a particle whatever is around, so only ghosts look who is one.
+Surroundings surroundings(const Lattice& lattice, std::size_t s) {
   const Grid& grid = lattice.grid;
   const auto [i, j, k] = grid.ijk(s);
-  std::uint32_t bits = 0;
+  Surroundings around;
   for (int c = -1; c <= 1; ++c)
     for (int b = -1; b <= 1; ++b)
-      for (int a = -1; a <= 1; ++a)
-        if (grid.contains(i + a, j + b, k + c) &&
-            lattice.is(grid.index(i + a, j + b, k + c), site::particle | site::ghost))
-          bits |= neighbour_bit(a, b, c);
-  return bits & all_neighbours;
+      for (int a = -1; a <= 1; ++a) {
+        if (!grid.contains(i + a, j + b, k + c)) continue;
+        const std::uint32_t word = lattice.word[grid.index(i + a, j + b, k + c)];
+        if (word & (site::particle | site::ghost)) around.occupied |= place_bit(a, b, c);
+        if (word & site::particle) around.particles |= place_bit(a, b, c);
+      }
+  if (lattice.is(s, site::particle)) around.particles = everywhere;
+  return around;
 }
 
-bool has_neighbour(std::uint32_t neighbours, int d) {
+bool has_neighbour(Surroundings around, int d) {
   const auto [a, b, c] = directions[static_cast<std::size_t>(d)];
-  return neighbours & neighbour_bit(a, b, c);
+  return around.occupied & place_bit(a, b, c);
 }
 
-BondClass make_class(std::uint32_t neighbours, const Material& material, double r) {
+BondClass make_class(Surroundings around, const Material& material, double r) {
   BondClass made;
-  made.neighbours = neighbours;
+  made.around = around;
   for (int d = 0; d < 18; ++d) {
-    if (!has_neighbour(neighbours, d)) continue;
-    const ElasticBond bond = assembled(parts_of(neighbours, d), group(d), material, r);
-    made.shear[static_cast<std::size_t>(d)] = bond.k_s;
-    made.along[static_cast<std::size_t>(d)] = (bond.k_n - bond.k_s) / group(d);
+    if (!has_neighbour(around, d)) continue;
+    const auto at = static_cast<std::size_t>(d);
+    const auto [a, b, c] = directions[at];
+    const ElasticBond bond = assembled(parts_of(around, d), group(d), material, r);
+    made.shear[at] = bond.k_s;
+    made.along[at] = (bond.k_n - bond.k_s) / group(d);
+    made.bends[at] = group(d) == 1 && around.particles & (place_bit(0, 0, 0) | place_bit(a, b, c)) ? 1 : 0;
   }
   return made;
 }
@@ -79,15 +99,25 @@ BondClass make_class(std::uint32_t neighbours, const Material& material, double 
 using Kinds = std::set<std::pair<int, Parts>>;  ///< group and parts of every bond that differs
 
 Kinds kinds_of(const Lattice& lattice) {
-  std::set<std::uint32_t> done;
+  std::set<Surroundings> done;
   Kinds kinds;
   for (std::size_t s = 0; s < lattice.word.size(); ++s) {
-    const std::uint32_t neighbours = lattice.classes[lattice.class_of[s]].neighbours;
-    if (!lattice.is(s, site::particle) || !done.insert(neighbours).second) continue;
+    const Surroundings around = lattice.classes[lattice.class_of[s]].around;
+    if (!lattice.is(s, site::particle | site::ghost) || !done.insert(around).second) continue;
     for (int d = 0; d < 18; ++d)
-      if (has_neighbour(neighbours, d)) kinds.insert({group(d), parts_of(neighbours, d)});
+      if (has_neighbour(around, d)) kinds.insert({group(d), parts_of(around, d)});
   }
   return kinds;
+}
+
+/// Bonds between two ghosts where cells, skins or bars give them springs.
+void connect_ghosts(Lattice& lattice) {
+  for (const Ghost& ghost : lattice.ghosts) {
+    const BondClass& own = lattice.classes[lattice.class_of[ghost.site]];
+    for (int d = 0; d < 18; ++d)
+      if (own.shear[static_cast<std::size_t>(d)] != 0 || own.along[static_cast<std::size_t>(d)] != 0)
+        lattice.word[ghost.site] |= 1u << d;
+  }
 }
 
 /// Whether no spring of that kind is negative at this ν, but for rounding.
@@ -163,8 +193,7 @@ Matrix6 stiffer_bond(const BondClass& kind, std::size_t d, const ElasticBond& bo
 
 }  // namespace
 
-Parts parts_of(std::uint32_t neighbours, int d) {
-  const Occupied at{neighbours};
+Parts parts_of(Surroundings around, int d) {
   const Step e = directions[static_cast<std::size_t>(d)];
   std::array<std::size_t, 3> across{}, along{};
   std::size_t n_across = 0, n_along = 0;
@@ -179,9 +208,10 @@ Parts parts_of(std::uint32_t neighbours, int d) {
   };
   for (const int b : {-1, 1}) {
     if (n_across == 1)
-      add(diagonal_in_cube(at, unit(along[0], e[along[0]]), unit(along[1], e[along[1]]), unit(across[0], b)));
+      add(diagonal_in_cube(around, unit(along[0], e[along[0]]), unit(along[1], e[along[1]]),
+                           unit(across[0], b)));
     else
-      for (const int c : {-1, 1}) add(edge_in_cube(at, e, unit(across[0], b), unit(across[1], c)));
+      for (const int c : {-1, 1}) add(edge_in_cube(around, e, unit(across[0], b), unit(across[1], c)));
   }
   return sum;
 }
@@ -201,18 +231,19 @@ ElasticBond assembled(const Parts& parts, int group, const Material& material, d
 
 void assemble(Lattice& lattice) {
   const double r = lattice.radius();
-  lattice.classes.assign(1, make_class(all_neighbours, lattice.material, r));
+  lattice.classes.assign(1, make_class(endless, lattice.material, r));
   lattice.class_of.assign(lattice.grid.size(), 0);
-  std::map<std::uint32_t, std::uint32_t> index{{all_neighbours, 0}};
+  std::map<Surroundings, std::uint32_t> index{{endless, 0}};
   for (std::size_t s = 0; s < lattice.word.size(); ++s) {
     lattice.word[s] &= ~site::surface;
     if (!lattice.is(s, site::particle | site::ghost)) continue;
-    const std::uint32_t neighbours = neighbours_of(lattice, s);
-    const auto [at, is_new] = index.emplace(neighbours, lattice.classes.size());
-    if (is_new) lattice.classes.push_back(make_class(neighbours, lattice.material, r));
+    const Surroundings around = surroundings(lattice, s);
+    const auto [at, is_new] = index.emplace(around, lattice.classes.size());
+    if (is_new) lattice.classes.push_back(make_class(around, lattice.material, r));
     lattice.class_of[s] = at->second;
     if (at->second != 0) lattice.word[s] |= site::surface;
   }
+  connect_ghosts(lattice);
   check_stiffness(lattice);
 }
 
@@ -228,7 +259,7 @@ double surface_excess(const Lattice& lattice) {
     for (int d = 0; d < 18; ++d) {
       const auto at = static_cast<std::size_t>(d);
       const Eigen::Vector3d e(directions[at][0], directions[at][1], directions[at][2]);
-      if (has_neighbour(kind.neighbours, d))
+      if (has_neighbour(kind.around, d))
         S += stiffer_bond(kind, at, law.elastic, e, r);
       else
         S -= cut_bond(law, e, r);

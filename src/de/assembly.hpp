@@ -9,7 +9,8 @@
 //   both of an edge       a bar r × r, k_n = Er/2, so that there is one for each occupied edge: an edge in no
 //                         skin adds one, an edge in two skins, whose material is the same there, takes one
 //                         away. A bar in no skin also shears like a beam, k_s = 5/6 G r/2.
-// So every homogeneous state that leaves the faces free is exact.
+// So every homogeneous state that leaves the faces free is exact. At an interface cubes end in the plane of
+// the ghosts: there only springs are left, with what the cubes on the lattice's side give them.
 #pragma once
 #include "de/elastic_bond.hpp"
 #include "model/lattice.hpp"
@@ -23,20 +24,16 @@ struct Parts {
   auto operator<=>(const Parts&) const = default;
 };
 
-/// Of the bond in direction d of a site with these neighbours (BondClass::neighbours), if it exists.
-Parts parts_of(std::uint32_t neighbours, int d);
+/// Of the bond in direction d of a site with these surroundings, if it exists.
+Parts parts_of(Surroundings around, int d);
 
 /// The springs that they add up to in a bond of this group.
 ElasticBond assembled(const Parts& parts, int group, const Material& material, double r);
 
-/// Neighbour at (a, b, c), each −1, 0 or 1, as a bit of BondClass::neighbours.
-constexpr std::uint32_t neighbour_bit(int a, int b, int c) {
-  return 1u << (9 * (c + 1) + 3 * (b + 1) + a + 1);
-}
-inline constexpr std::uint32_t all_neighbours = ((1u << 27) - 1) & ~neighbour_bit(0, 0, 0);
-
-/// Make a connected lattice consistent: the classes of its sites. Ghosts count as occupied. Throws
-/// std::invalid_argument where a bond's stiffness would be negative at the material's Poisson's ratio.
+/// Make a connected lattice consistent: the classes of its sites, and bonds between ghosts that are corners
+/// of one cell, skin or bar. Ghosts count as occupied, but a cube of ghosts alone is nothing: it is
+/// hexahedra. Throws std::invalid_argument where a bond's stiffness would be negative at the material's
+/// Poisson's ratio.
 void assemble(Lattice& lattice);
 
 /// What the classes add, at most, to the largest ω² of the endless lattice.

@@ -22,7 +22,10 @@ struct Published {
   ElasticBond inner;
 
   explicit Published(const Lattice& lattice) : inner(ElasticBond::from(lattice.material, lattice.radius())) {}
-  GEIST_INLINE const ElasticBond& at(std::size_t) const { return inner; }
+  template <class T = Pack>
+  GEIST_INLINE const ElasticBond& at(std::size_t) const {
+    return inner;
+  }
 };
 
 /// The bonds of consistent lattices: those of the endless lattice, or by the sites' classes.
@@ -35,7 +38,10 @@ struct Consistent {
       : inner(EndlessBond::from(lattice.material, lattice.radius())),
         classes(lattice.classes.data()),
         class_of(lattice.class_of.data()) {}
-  GEIST_INLINE ClassBonds<Pack> at(std::size_t s) const { return {inner, classes, class_of + s}; }
+  template <class T = Pack>
+  GEIST_INLINE ClassBonds<T> at(std::size_t s) const {
+    return {inner, classes, class_of + s};
+  }
 };
 
 /// What the row kernel reads and writes, as plain pointers and numbers.
@@ -160,6 +166,14 @@ struct SiteEnergies {
     (std::make_integer_sequence<int, 18>{});
     return 0.5 * energy;
   }
+
+  /// Energy of a ghost's bond in direction D if there is a ghost at its end too.
+  template <int D>
+  double between_ghosts(const Lattice& lattice, std::size_t s) const {
+    const std::size_t other = s + offset[D];
+    if (!(word[s] >> D & 1) || !lattice.is(other, site::ghost)) return 0;
+    return bond_energy<D, double>(motion, s, offset[D], method.template at<double>(s), r);
+  }
 };
 
 template <class Method>
@@ -182,12 +196,24 @@ KickSums forces_and_kick(Lattice& lattice, const Kick& kick) {
   return total;
 }
 
+/// Energy of the bonds between two ghosts.
+template <class Method>
+double energy_between_ghosts(const Lattice& lattice) {
+  const SiteEnergies<Method> energy(lattice);
+  double twice = 0;
+  for (const Ghost& ghost : lattice.ghosts) [&]<int... D>(std::integer_sequence<int, D...>) {
+      ((twice += energy.template between_ghosts<D>(lattice, ghost.site)), ...);
+    }
+  (std::make_integer_sequence<int, 18>{});
+  return 0.5 * twice;
+}
+
 template <class Method>
 BondEnergies energies_by(const Lattice& lattice) {
-  // A coupling bond has half of its energy at a particle and half at a ghost, any other all of it at
-  // particles.
+  // A bond of a particle and a ghost has half of its energy at either; between two ghosts all of it is at
+  // ghosts, any other's is at particles.
   const SiteEnergies<Method> energy(lattice);
-  return sum<BondEnergies>(lattice.grid.size() / lanes, [energy](std::size_t pack) {
+  BondEnergies total = sum<BondEnergies>(lattice.grid.size() / lanes, [energy](std::size_t pack) {
     const Pack e = energy.at(lanes * pack);
     BondEnergies sums;
     for (int l = 0; l < lanes; ++l) {
@@ -197,6 +223,8 @@ BondEnergies energies_by(const Lattice& lattice) {
     }
     return sums;
   });
+  const double between_ghosts = energy_between_ghosts<Method>(lattice);
+  return total += {between_ghosts, -between_ghosts};
 }
 
 template <class Method>

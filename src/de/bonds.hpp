@@ -35,7 +35,7 @@ KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick);
 KickSums kick_listed(Lattice& lattice, const Kick& kick);
 
 struct BondEnergies {
-  double bonds = 0, coupling = 0;  ///< particle–particle, particle–ghost
+  double bonds = 0, coupling = 0;  ///< between particles; with a ghost at an end
   BondEnergies& operator+=(const BondEnergies& b) {
     bonds += b.bonds, coupling += b.coupling;
     return *this;

@@ -94,6 +94,11 @@ struct ClassBonds : Bending {
       : Bending(bending) {
     for (int l = 0; l < count; ++l) of[l] = classes + class_of[l];
   }
+  /// Ghosts at the edge of what is counted have bonds that do not bend.
+  template <int D>
+  GEIST_INLINE T turn(int c) const {
+    return Bending::turn<D>(c) * gather<D>(&BondClass::bends);
+  }
   template <int D>
   GEIST_INLINE T gather(const std::array<double, 18> BondClass::*member) const {
     if constexpr (count == 1) {

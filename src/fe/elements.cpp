@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/parallel.hpp"
+#include "fe/cut.hpp"
 #include "fe/formulations.hpp"
 #include "fe/gather.hpp"
 #include "fe/parameters.hpp"
@@ -26,21 +27,42 @@ double sum_real_lanes(Pack a, int real) {
   return s;
 }
 
+/// The formulations of a mesh's blocks: as they are, or cut.
+struct Blocks {
+  const HexBlock* block;
+  const BlockCut* cuts;
+  const std::int32_t* cut_of_block;  ///< null if there are none
+
+  explicit Blocks(const Mesh& mesh)
+      : block(mesh.blocks.data()),
+        cuts(mesh.block_cuts.data()),
+        cut_of_block(mesh.cuts.empty() ? nullptr : mesh.cut_of_block.data()) {}
+
+  template <class Formulation, class Visit>
+  GEIST_INLINE auto visit(std::size_t b, const Formulation& formulation, Visit visit_one) const {
+    if (cut_of_block && cut_of_block[b] >= 0)
+      return visit_one(Cut<Formulation>{formulation, cuts[cut_of_block[b]]});
+    return visit_one(formulation);
+  }
+};
+
 /// Forces of a region that dissipates nothing.
 template <class Formulation>
 void forces(Mesh& mesh, const HexRegion& region, Formulation formulation) {
   const NodeField X(mesh.X), u(mesh.u);
-  const HexBlock* const blocks = mesh.blocks.data();
+  const Blocks blocks(mesh);
   double* const out = mesh.corner_force.data();
   const std::size_t first = region.first_block;
   for_each(
       region.blocks(),
       [=](std::size_t i) {
-        const HexBlock& block = blocks[first + i];
-        Corners<Pack> f;
-        const Corners<Pack> w = u.at(block);
-        formulation.forces(X.at(block), w, w, f);
-        store_forces(f, out, first + i);
+        const HexBlock& block = blocks.block[first + i];
+        blocks.visit(first + i, formulation, [&](const auto& own) {
+          Corners<Pack> f;
+          const Corners<Pack> w = u.at(block);
+          own.forces(X.at(block), w, w, f);
+          store_forces(f, out, first + i);
+        });
       },
       grain);
 }
@@ -49,7 +71,7 @@ void forces(Mesh& mesh, const HexRegion& region, Formulation formulation) {
 template <class Formulation>
 double viscous_forces(Mesh& mesh, const HexRegion& region, Formulation formulation) {
   const NodeField X(mesh.X), u(mesh.u), v(mesh.v);
-  const HexBlock* const blocks = mesh.blocks.data();
+  const Blocks blocks(mesh);
   double* const out = mesh.corner_force.data();
   std::vector<double> power(region.blocks());
   double* const powers = power.data();
@@ -57,8 +79,11 @@ double viscous_forces(Mesh& mesh, const HexRegion& region, Formulation formulati
       region.blocks(),
       [=, &region](std::size_t i) {
         const std::size_t b = region.first_block + i;
+        const HexBlock& block = blocks.block[b];
         Corners<Pack> f;
-        const Pack p = formulation.forces(X.at(blocks[b]), u.at(blocks[b]), v.at(blocks[b]), f);
+        const Pack p = blocks.visit(b, formulation, [&](const auto& own) {
+          return own.forces(X.at(block), u.at(block), v.at(block), f);
+        });
         store_forces(f, out, b);
         powers[i] = sum_real_lanes(p, real_lanes(region, i));
       },
@@ -69,9 +94,12 @@ double viscous_forces(Mesh& mesh, const HexRegion& region, Formulation formulati
 template <class Formulation>
 Energies region_energies(const Mesh& mesh, const HexRegion& region, Formulation formulation) {
   const NodeField X(mesh.X), u(mesh.u);
-  const HexBlock* const blocks = mesh.blocks.data() + region.first_block;
+  const Blocks blocks(mesh);
   return sum<Energies>(region.blocks(), [=, &region](std::size_t i) {
-    const Stored<Pack> e = formulation.energy(X.at(blocks[i]), u.at(blocks[i]));
+    const std::size_t b = region.first_block + i;
+    const Stored<Pack> e = blocks.visit(b, formulation, [&](const auto& own) {
+      return own.energy(X.at(blocks.block[b]), u.at(blocks.block[b]));
+    });
     const int real = real_lanes(region, i);
     return Energies{sum_real_lanes(e.strain, real), sum_real_lanes(e.hourglass, real)};
   });
@@ -99,9 +127,23 @@ double density(const Mesh& mesh, std::size_t e) {
 }
 
 std::array<double, 8> masses(const Mesh& mesh, std::size_t e, double rho) {
+  if (const HexCut* cut = cut_of(mesh, e)) return cut->mass;
   auto m = hex8::corner_volumes(hex8::corners(mesh, e));
   for (double& a : m) a *= rho;
   return m;
+}
+
+BlockCut whole_block(const Mesh& mesh, const HexBlock& block) {
+  const MeanGradient<Pack> m = mean_gradient(to_modes(NodeField(mesh.X).at(block)));
+  BlockCut whole;
+  whole.volume = m.volume;
+  Modes<Pack> g = m.g;
+  for (int i = 0; i < 3; ++i) g[7][i] = broadcast(0);
+  Corners<Pack> B;
+  to_corners(g, B);
+  for (int i = 0; i < 3; ++i)
+    for (int a = 0; a < 8; ++a) whole.gradient[a][i] = B[a][i];
+  return whole;
 }
 
 }  // namespace
@@ -145,7 +187,27 @@ std::array<double, 8> corner_masses(const Mesh& mesh, std::size_t element) {
   return masses(mesh, element, density(mesh, element));
 }
 
+void set_cuts(Mesh& mesh, std::vector<HexCut> cuts) {
+  mesh.cuts = std::move(cuts);
+  mesh.block_cuts.clear();
+  mesh.cut_of_block.assign(mesh.blocks.size(), -1);
+  for (const HexCut& cut : mesh.cuts) {
+    const HexRegion& region = mesh.regions[region_of(mesh, cut.element)];
+    const std::size_t i = static_cast<std::size_t>(cut.element) - region.first,
+                      b = region.first_block + i / lanes;
+    if (mesh.cut_of_block[b] < 0) {
+      mesh.cut_of_block[b] = static_cast<std::int32_t>(mesh.block_cuts.size());
+      mesh.block_cuts.push_back(whole_block(mesh, mesh.blocks[b]));
+    }
+    BlockCut& block = mesh.block_cuts[mesh.cut_of_block[b]];
+    block.volume[i % lanes] = cut.volume;
+    for (int a = 0; a < 8; ++a)
+      for (int c = 0; c < 3; ++c) block.gradient[a][c][i % lanes] = cut.gradient[a][c];
+  }
+}
+
 void lump_masses(Mesh& mesh) {
+  std::fill(mesh.mass.begin(), mesh.mass.end(), 0.0);
   for (const HexRegion& region : mesh.regions)
     for (std::size_t e = region.first; e < region.first + region.count; ++e) {
       const auto m = masses(mesh, e, region.material.density);

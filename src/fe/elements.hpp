@@ -23,10 +23,13 @@ Energies energies(const Mesh& mesh);
 /// Stress of the mean strain, by element: xx, yy, zz, xy, yz, xz.
 std::vector<std::array<double, 6>> centre_stresses(const Mesh& mesh);
 
-/// Lumped mass ρ ∫ N_a dV of an element's corners (m_I in (1) is their sum).
+/// From now on these elements are cut (in order of elements); others are whole.
+void set_cuts(Mesh& mesh, std::vector<HexCut> cuts);
+
+/// Lumped mass ρ ∫ N_a dV of an element's corners (m_I in (1) is their sum), or what its cut says.
 std::array<double, 8> corner_masses(const Mesh& mesh, std::size_t element);
 
-/// Add every element's corner masses to mesh.mass.
+/// Set mesh.mass to the sum of all elements' corner masses.
 void lump_masses(Mesh& mesh);
 
 /// By element, ω_e² such that Δt ≤ 2/ω_e for all e is stable when elements act alone: frequencies.cpp says

@@ -45,18 +45,36 @@ double rounded_up(double a) {
   return std::ldexp(std::ceil(std::ldexp(fraction, 30)), exponent - 30);
 }
 
-/// Edges from corner 0 in units of about 10⁻¹⁰ of the element's size (a power of two), and that unit's
-/// exponent.
-using ShapeKey = std::array<std::int64_t, 22>;
+/// Edges from corner 0 in units of about 10⁻¹⁰ of the element's size (a power of two), that unit's exponent,
+/// and the number of the cut, 1 and up, where the element is cut.
+using ShapeKey = std::array<std::int64_t, 23>;
 
-ShapeKey shape_key(const hex8::Corners& x) {
+ShapeKey shape_key(const hex8::Corners& x, std::int64_t cut) {
   double size = 0;
   for (int a = 1; a < 8; ++a) size = std::max(size, norm(x[a] - x[0]));
   ShapeKey key;
-  key[21] = std::ilogb(size) - 33;
+  key[21] = std::ilogb(size) - 33, key[22] = cut;
   for (int a = 1; a < 8; ++a)
     for (int i = 0; i < 3; ++i)
       key[3 * (a - 1) + i] = std::llround(std::ldexp(x[a][i] - x[0][i], -static_cast<int>(key[21])));
+  return key;
+}
+
+/// Masses and gradients of a cut, to about 10⁻¹⁰ of their size.
+using CutKey = std::array<std::int64_t, 33>;
+
+CutKey cut_key(const HexCut& cut) {
+  const double mass = *std::max_element(cut.mass.begin(), cut.mass.end());
+  double area = 0;
+  for (const Vec3 g : cut.gradient) area = std::max(area, norm(g));
+  const int of_mass = 33 - std::ilogb(mass), of_area = 33 - std::ilogb(area),
+            of_volume = 33 - std::ilogb(cut.volume);
+  CutKey key;
+  key[32] = std::llround(std::ldexp(cut.volume, of_volume));
+  for (int a = 0; a < 8; ++a) {
+    key[a] = std::llround(std::ldexp(cut.mass[a], of_mass));
+    for (int i = 0; i < 3; ++i) key[8 + 3 * a + i] = std::llround(std::ldexp(cut.gradient[a][i], of_area));
+  }
   return key;
 }
 
@@ -68,8 +86,12 @@ struct Shapes {
 Shapes find_shapes(const Mesh& mesh, const HexRegion& region) {
   Shapes shapes;
   std::map<ShapeKey, std::size_t> known;
+  std::map<CutKey, std::int64_t> cuts;
   for (std::size_t e = region.first; e < region.first + region.count; ++e) {
-    const auto [it, is_new] = known.try_emplace(shape_key(hex8::corners(mesh, e)), known.size());
+    const HexCut* const cut = cut_of(mesh, e);
+    const std::int64_t number =
+        cut ? cuts.try_emplace(cut_key(*cut), static_cast<std::int64_t>(cuts.size()) + 1).first->second : 0;
+    const auto [it, is_new] = known.try_emplace(shape_key(hex8::corners(mesh, e), number), known.size());
     if (is_new) shapes.example.push_back(e);
     shapes.of_element.push_back(it->second);
   }
@@ -83,15 +105,17 @@ struct Scaled {
 };
 
 template <class Formulation>
-Scaled scaled_matrices(const Mesh& mesh, std::size_t e, double density, const Formulation& formulation) {
-  const auto volumes = hex8::corner_volumes(hex8::corners(mesh, e));
+Scaled scaled_matrices(const Mesh& mesh, std::size_t e, const Formulation& formulation) {
+  const auto mass = corner_masses(mesh, e);
   const Corners<double> X = local_corners(mesh, e);
   Eigen::Matrix<double, 24, 1> root_mass;
   for (int a = 0; a < 8; ++a)
-    for (int i = 0; i < 3; ++i) root_mass(3 * a + i) = std::sqrt(density * volumes[a]);
+    for (int i = 0; i < 3; ++i) root_mass(3 * a + i) = std::sqrt(mass[a]);
   const auto scale = root_mass.cwiseInverse().asDiagonal();
-  return {scale * stiffness_matrix(formulation, X) * scale, scale * damping_matrix(formulation, X) * scale,
-          root_mass};
+  return visit_element(mesh, e, formulation, [&](const auto& own) {
+    return Scaled{scale * stiffness_matrix(own, X) * scale, scale * damping_matrix(own, X) * scale,
+                  root_mass};
+  });
 }
 
 double largest_eigenvalue(const Matrix24& A) {
@@ -125,14 +149,14 @@ double solution(const Scaled& m) {
 
 /// ω_e of each shape.
 template <class Formulation>
-std::vector<double> shape_frequencies(const Mesh& mesh, const HexRegion& region, const Shapes& shapes,
-                                      Formulation formulation, std::size_t most_eigenproblems) {
+std::vector<double> shape_frequencies(const Mesh& mesh, const Shapes& shapes, Formulation formulation,
+                                      std::size_t most_eigenproblems) {
   const std::size_t n = shapes.example.size();
   std::vector<double> omega(n, 0.0);
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
-  const auto matrices = [&mesh, &region, &shapes, formulation](std::size_t s) {
-    return scaled_matrices(mesh, shapes.example[s], region.material.density, formulation);
+  const auto matrices = [&mesh, &shapes, formulation](std::size_t s) {
+    return scaled_matrices(mesh, shapes.example[s], formulation);
   };
   if (n > most_eigenproblems) {
     for_each(n, [matrices, out = omega.data()](std::size_t s) { out[s] = bound(matrices(s)); });
@@ -154,8 +178,7 @@ std::vector<double> frequencies_squared(const Mesh& mesh, std::size_t most_eigen
   for (const HexRegion& region : mesh.regions)
     visit_formulation(region.formulation, parameters(region), [&](auto formulation) {
       const Shapes shapes = find_shapes(mesh, region);
-      const std::vector<double> omega =
-          shape_frequencies(mesh, region, shapes, formulation, most_eigenproblems);
+      const std::vector<double> omega = shape_frequencies(mesh, shapes, formulation, most_eigenproblems);
       for (std::size_t i = 0; i < region.count; ++i) {
         const double w = omega[shapes.of_element[i]];
         squares[region.first + i] = rounded_up(w * w);

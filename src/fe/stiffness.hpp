@@ -3,6 +3,7 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "fe/cut.hpp"
 #include "fe/formulations.hpp"
 #include "fe/hooke.hpp"
 #include "fe/modes.hpp"
@@ -68,13 +69,33 @@ inline Corners<double> local_corners(const Mesh& mesh, std::size_t e) {
   return X;
 }
 
+/// The cut of an element in all lanes.
+inline BlockCut in_all_lanes(const HexCut& cut) {
+  BlockCut block;
+  block.volume = broadcast(cut.volume);
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) block.gradient[a][i] = broadcast(cut.gradient[a][i]);
+  return block;
+}
+
+/// Call visit(formulation) with that of element e: as it is, or cut.
+template <class Formulation, class Visit>
+auto visit_element(const Mesh& mesh, std::size_t e, const Formulation& formulation, Visit visit) {
+  const HexCut* const cut = cut_of(mesh, e);
+  if (!cut) return visit(formulation);
+  const BlockCut left = in_all_lanes(*cut);
+  return visit(Cut<Formulation>{formulation, left});
+}
+
 /// Call visit(e, K) for every element of a mesh that `wanted(e)`, in order.
 template <class Wanted, class Visit>
 void visit_stiffness(const Mesh& mesh, Wanted wanted, Visit visit) {
   for (const HexRegion& region : mesh.regions)
     visit_formulation(region.formulation, parameters(region), [&](const auto& formulation) {
       for (std::size_t e = region.first; e < region.first + region.count; ++e)
-        if (wanted(e)) visit(e, stiffness_matrix(formulation, local_corners(mesh, e)));
+        if (wanted(e))
+          visit_element(mesh, e, formulation,
+                        [&](const auto& own) { visit(e, stiffness_matrix(own, local_corners(mesh, e))); });
     });
 }
 

@@ -62,4 +62,25 @@ std::optional<Location> Locator::find(Vec3 p, double slack, std::int32_t strange
   return std::nullopt;
 }
 
+std::vector<std::int32_t> Locator::near(const Box& box) const {
+  std::vector<std::int32_t> found;
+  const auto a = cell(box.low), b = cell(box.high);
+  for (long i = a[0]; i <= b[0]; ++i)
+    for (long j = a[1]; j <= b[1]; ++j)
+      for (long k = a[2]; k <= b[2]; ++k) {
+        const auto it = elements_.find(key({i, j, k}));
+        if (it != elements_.end()) found.insert(found.end(), it->second.begin(), it->second.end());
+      }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  const auto apart = [&](std::int32_t e) {
+    const auto [low, high] = bounds_of(hex8::corners(mesh_, static_cast<std::size_t>(e)));
+    for (int c = 0; c < 3; ++c)
+      if (low[c] > box.high[c] || high[c] < box.low[c]) return true;
+    return false;
+  };
+  found.erase(std::remove_if(found.begin(), found.end(), apart), found.end());
+  return found;
+}
+
 }  // namespace geist

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "geometry/shapes.hpp"
 #include "model/mesh.hpp"
 
 namespace geist {
@@ -23,6 +24,9 @@ class Locator {
   /// The hexahedron that holds p, natural coordinates within [−1 − slack, 1 + slack]; of several the first,
   /// but never one that has `stranger` for a corner.
   std::optional<Location> find(Vec3 p, double slack = 1e-7, std::int32_t stranger = -1) const;
+
+  /// The hexahedra whose bounding boxes meet the box, in order of elements.
+  std::vector<std::int32_t> near(const Box& box) const;
 
  private:
   std::array<long, 3> cell(Vec3 p) const;

@@ -5,6 +5,7 @@
 // to hold the particles and their ghosts. What differs from site to site is one word (see Site below).
 #pragma once
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -90,15 +91,28 @@ struct Grid {
 struct Ghost {
   std::size_t site;
   std::int32_t element;
-  Vec3 xi;                  ///< natural coordinates (11)
-  std::array<double, 8> N;  ///< (8) at xi
+  Vec3 xi;                            ///< natural coordinates (11)
+  std::array<double, 8> N;            ///< (8) at xi
+  std::array<Vec3, 8> gradient = {};  ///< ∂N_I/∂x at xi
+};
+
+/// How ghosts turn: not at all; by themselves ("one-step-back", (15)(24)), a degree of freedom of the
+/// lattice; or with the continuum, θ_g = ½ curl u.
+enum class GhostRotation { none, own, continuum };
+
+/// Which of the 27 places around and at a site are occupied (by a particle or a ghost), and which by
+/// particles; place (a, b, c), each −1, 0 or 1, is bit 9(c+1) + 3(b+1) + (a+1).
+struct Surroundings {
+  std::uint32_t occupied = 0, particles = 0;
+  auto operator<=>(const Surroundings&) const = default;
 };
 
 /// Springs of a site's bonds, by direction: the force of a bond along e (in steps of the grid) at relative
 /// displacement d is shear d + along (d·e) e.
 struct BondClass {
-  std::uint32_t neighbours = 0;  ///< which of the 26 places around are occupied: bit 9(c+1) + 3(b+1) + (a+1)
+  Surroundings around;
   std::array<double, 18> shear{}, along{};
+  std::array<double, 18> bends{};  ///< 1 where the bond resists bending and twisting, else 0
 };
 
 struct Lattice {
@@ -130,7 +144,8 @@ struct Lattice {
 
   std::vector<double> row_sums;  ///< scratch of the lattice kernel, by row
 
-  std::vector<Ghost> ghosts;             ///< in order of sites
+  std::vector<Ghost> ghosts;  ///< in order of sites
+  GhostRotation ghost_rotation = GhostRotation::own;
   std::vector<std::int32_t> ghost_slot;  ///< ghost g's place in listed
 
   double radius() const { return grid.pitch / 2; }
@@ -142,7 +157,8 @@ struct Lattice {
 /// Make the (zero) state of a lattice whose grid and words are set.
 void finish(Lattice& lattice);
 
-/// Derive each site's bond bits from which sites are particles and ghosts (ghost–ghost pairs carry no bond).
+/// Derive each site's bond bits from which sites are particles and ghosts (ghost–ghost pairs carry no bond,
+/// but for those of cells with a particle: de/assembly.hpp).
 void connect(Lattice& lattice);
 
 /// Hand the force of these particles over from now on, beside that of all ghosts. Any order, repeats allowed.

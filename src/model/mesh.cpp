@@ -49,6 +49,13 @@ std::int32_t region_of(const Mesh& mesh, std::int32_t element) {
                                    mesh.regions.begin());
 }
 
+const HexCut* cut_of(const Mesh& mesh, std::size_t element) {
+  const auto e = static_cast<std::int32_t>(element);
+  const auto it = std::lower_bound(mesh.cuts.begin(), mesh.cuts.end(), e,
+                                   [](const HexCut& cut, std::int32_t i) { return cut.element < i; });
+  return it != mesh.cuts.end() && it->element == e ? &*it : nullptr;
+}
+
 void finish(Mesh& mesh) {
   make_blocks(mesh);
   make_gather_lists(mesh);

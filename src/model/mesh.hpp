@@ -41,6 +41,21 @@ struct HexRegion {
   std::size_t blocks() const { return (count + lanes - 1) / lanes; }
 };
 
+/// What the cells of a lattice leave of a hexahedron at an interface: docs/theory.md, "Every point counted
+/// once".
+struct HexCut {
+  std::int32_t element;
+  double volume;                 ///< ∫ dV over what is left
+  std::array<Vec3, 8> gradient;  ///< ∫ ∂N_a/∂x dV over what is left
+  std::array<double, 8> mass;    ///< of the corners: what the cells took rides on the ghosts in there
+};
+
+/// The same for a block; lanes that are whole have their whole volume and gradient.
+struct BlockCut {
+  Pack volume;
+  Pack gradient[8][3];
+};
+
 struct Mesh {
   // What it is made of
   Kinematics kinematics = Kinematics::small;
@@ -48,6 +63,11 @@ struct Mesh {
   std::vector<std::array<std::int32_t, 8>> elements;  ///< corner nodes, by element, region after region
   std::vector<HexRegion> regions;
   std::vector<HexBlock> blocks;
+
+  // Consistent method only: elements that are cut, in order, and by block; −1: no element of it is
+  std::vector<HexCut> cuts;
+  std::vector<BlockCut> block_cuts;
+  std::vector<std::int32_t> cut_of_block;  ///< empty if there are no cuts
 
   // Where node I finds the forces of its element corners: corner_force[gather[k] + 8 c], k in
   // [gather_begin[I], gather_begin[I + 1]), component c. In order of elements.
@@ -67,6 +87,9 @@ struct Mesh {
 
 /// Places of block b, corner a, component 0, lane l in corner_force; component c is 8 c further on.
 constexpr std::size_t corner_slot(std::size_t b, int a, int l) { return (b * 8 + a) * 3 * lanes + l; }
+
+/// The cut of an element, if it is cut.
+const HexCut* cut_of(const Mesh& mesh, std::size_t element);
 
 /// Number of the region that an element belongs to.
 std::int32_t region_of(const Mesh& mesh, std::int32_t element);

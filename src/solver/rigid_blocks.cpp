@@ -75,6 +75,11 @@ class Assembly {
     return S;
   }
 
+  /// θ_g = ½ ∇N_I × u_I as a matrix.
+  static Eigen::Matrix3d half_cross(Vec3 g) {
+    return 0.5 * (Eigen::Matrix3d() << 0, -g.z, g.y, g.z, 0, -g.x, -g.y, g.x, 0).finished();
+  }
+
   bool moves_rigidly(std::size_t k, int all) const { return places_[k].free == all; }
 
   void add_elements() {
@@ -136,20 +141,23 @@ class Assembly {
             moves_rigidly(j, 0b111111))
           continue;
         strain.by_block.clear();
-        add_end(i, ghost_at[s], bonds.strain(d).B_i, strain);
-        add_end(j, ghost_at[t], bonds.strain(d).B_j, strain);
+        add_end(lattice, i, ghost_at[s], bonds.strain(d).B_i, strain);
+        add_end(lattice, j, ghost_at[t], bonds.strain(d).B_j, strain);
         add_energy(strain, bonds.stiffness(s, d));
       }
   }
 
   /// What a bond's end at place k adds to its strain.
-  void add_end(std::size_t k, const Ghost* ghost, const Matrix6& B, Strain& strain) const {
+  void add_end(const Lattice& lattice, std::size_t k, const Ghost* ghost, const Matrix6& B,
+               Strain& strain) const {
     strain.add(places_.block_of(k), B.lazyProduct(motion(k)));
     if (!ghost) return;
+    const bool turn = lattice.ghost_rotation == GhostRotation::continuum;
     for (int I = 0; I < 8; ++I) {
       const std::int32_t node = places_.of_node(model_.mesh.elements[ghost->element][I]);
-      strain.add(places_.block_of(node),
-                 ghost->N[I] * B.leftCols<3>().lazyProduct(motion(node).topRows<3>()));
+      Eigen::Matrix<double, 6, 3> B_I = ghost->N[I] * B.leftCols<3>();
+      if (turn) B_I += B.rightCols<3>().lazyProduct(half_cross(ghost->gradient[I]));
+      strain.add(places_.block_of(node), B_I.lazyProduct(motion(node).topRows<3>()));
     }
   }
 

@@ -116,7 +116,7 @@ constexpr Malformed values[] = {
      "[coupling]\nrotation = \"two-steps-back\"\n\n[analysis]",
      34,
      12,
-     {"'rotation' must be \"one-step-back\" or \"none\"", "did you mean \"one-step-back\"?"}},
+     {"'rotation' must be \"continuum\", \"one-step-back\" or \"none\"", "did you mean \"one-step-back\"?"}},
     {"CurveBackInTime",
      "[[0, 0], [1, 1]]",
      "[[0, 0], [1, 1], [1, 2]]",
