@@ -99,6 +99,23 @@ std::vector<WeightedPoint> ConvexPolyhedron::quadrature() const {
   return points;
 }
 
+std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const HalfSpace& half, double tolerance) {
+  std::vector<Vec3> on_plane;
+  auto kept = clipped(polygon, half, tolerance, on_plane);
+  return kept.size() < 3 ? std::vector<Vec3>{} : kept;
+}
+
+/// The middles of the sides of every triangle between the first corner and a side.
+std::vector<WeightedPoint> quadrature(const std::vector<Vec3>& polygon) {
+  std::vector<WeightedPoint> points;
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+    const Vec3 a = polygon[0], b = polygon[k], c = polygon[k + 1];
+    const double area = norm(cross(b - a, c - a)) / 2;
+    for (const Vec3 p : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)}) points.push_back({p, area / 3});
+  }
+  return points;
+}
+
 std::array<WeightedPoint, 8> quadrature(const Box& box) {
   const Vec3 centre = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
   std::array<WeightedPoint, 8> points;

@@ -14,7 +14,7 @@ struct HalfSpace {
   double offset;
 };
 
-/// A point of a quadrature rule: position and weight (a volume).
+/// A point of a quadrature rule: position and weight (a volume or an area).
 struct WeightedPoint {
   Vec3 x;
   double weight;
@@ -36,6 +36,12 @@ class ConvexPolyhedron {
  private:
   std::vector<std::vector<Vec3>> faces_;  ///< corners in turn
 };
+
+/// What of a convex polygon lies in the half-space; what is within `tolerance` of the plane counts as inside.
+std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const HalfSpace& half, double tolerance);
+
+/// Points and weights (areas) that integrate polynomials of second degree over a convex polygon exactly.
+std::vector<WeightedPoint> quadrature(const std::vector<Vec3>& polygon);
 
 /// The 2 × 2 × 2 Gauss points of a box: exact for the third degree in each coordinate.
 std::array<WeightedPoint, 8> quadrature(const Box& box);
