@@ -23,6 +23,15 @@ bool within_reach(const Lattice& lattice, int i, int j, int k, Reach reach) {
   return false;
 }
 
+Ghost make_ghost(std::size_t site, const Location& found, const Mesh& mesh) {
+  Ghost ghost{site, found.element, found.xi};
+  const auto e = static_cast<std::size_t>(found.element);
+  const auto N = hex8::shape(found.xi);
+  const auto gradient = hex8::position_gradient(hex8::corners(mesh, e), found.xi);
+  for (int I = 0; I < 8; ++I) ghost.nodes.push_back({mesh.elements[e][I], N[I], gradient[I]});
+  return ghost;
+}
+
 }  // namespace
 
 void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator, const std::vector<bool>& loose,
@@ -34,10 +43,7 @@ void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator, co
     if (i >= grid.nx || lattice.word[s] || !within_reach(lattice, i, j, k, reach)) continue;
     const auto found = locator.find(grid.centre(s));
     if (found && (loose.empty() || !loose[region_of(mesh, found->element)]))
-      lattice.ghosts.push_back(
-          {s, found->element, found->xi, hex8::shape(found->xi),
-           hex8::position_gradient(hex8::corners(mesh, static_cast<std::size_t>(found->element)),
-                                   found->xi)});
+      lattice.ghosts.push_back(make_ghost(s, *found, mesh));
   }
   for (const Ghost& ghost : lattice.ghosts) lattice.word[ghost.site] = site::ghost;
 }
@@ -47,10 +53,10 @@ void follow(Lattice& lattice, const Mesh& mesh) {
   const auto follow_one = [&lattice, &mesh, turn](std::size_t g) {
     const Ghost& ghost = lattice.ghosts[g];
     Vec3 u, curl;
-    for (int I = 0; I < 8; ++I) {
-      const Vec3 u_I = mesh.u.vector(mesh.elements[ghost.element][I]);
-      for (int c = 0; c < 3; ++c) u[c] = fma(ghost.N[I], u_I[c], u[c]);
-      if (turn) curl += cross(ghost.gradient[I], u_I);
+    for (const auto& [node, N, gradient] : ghost.nodes) {
+      const Vec3 u_I = mesh.u.vector(node);
+      for (int c = 0; c < 3; ++c) u[c] = fma(N, u_I[c], u[c]);
+      if (turn) curl += cross(gradient, u_I);
     }
     lattice.motion.set(ghost.site, u);
     if (turn) lattice.motion.set(ghost.site, 0.5 * curl, 3);
@@ -63,14 +69,11 @@ Reactions::Reactions(const Model& model) {
   for (std::size_t l = 0; l < model.lattices.size(); ++l) {
     const Lattice& lattice = model.lattices[l];
     const bool turn = lattice.ghost_rotation == GhostRotation::continuum;
-    for (std::size_t g = 0; g < lattice.ghosts.size(); ++g) {
-      const Ghost& ghost = lattice.ghosts[g];
-      for (int I = 0; I < 8; ++I)
-        if (ghost.N[I] != 0 || turn)
-          by_node[model.mesh.elements[ghost.element][I]].push_back({static_cast<std::int32_t>(l),
-                                                                    lattice.ghost_slot[g], ghost.N[I],
-                                                                    turn ? 0.5 * ghost.gradient[I] : Vec3{}});
-    }
+    for (std::size_t g = 0; g < lattice.ghosts.size(); ++g)
+      for (const auto& [node, N, gradient] : lattice.ghosts[g].nodes)
+        if (N != 0 || turn)
+          by_node[node].push_back(
+              {static_cast<std::int32_t>(l), lattice.ghost_slot[g], N, turn ? 0.5 * gradient : Vec3{}});
   }
   begin_.push_back(0);
   for (const auto& [node, entries] : by_node) {
@@ -101,10 +104,9 @@ std::vector<double> virtual_masses(const Lattice& lattice, const Mesh& mesh) {
   std::vector<double> mass(mesh.nodes(), 0.0);
   for (const Ghost& ghost : lattice.ghosts) {
     double sum = 0;
-    for (const Vec3 gradient : ghost.gradient) sum += norm(gradient);
-    for (int I = 0; I < 8; ++I)
-      mass[mesh.elements[ghost.element][I]] +=
-          ghost.N[I] * lattice.mass + (turn ? 0.25 * lattice.inertia * sum * norm(ghost.gradient[I]) : 0);
+    for (const GhostNode& I : ghost.nodes) sum += norm(I.gradient);
+    for (const auto& [node, N, gradient] : ghost.nodes)
+      mass[node] += N * lattice.mass + (turn ? 0.25 * lattice.inertia * sum * norm(gradient) : 0);
   }
   return mass;
 }

@@ -173,7 +173,7 @@ Matrix6 at_one_end(const Eigen::Matrix3d& K, const Eigen::Vector3d& e, double r)
 
 /// The endless lattice's bond to an empty place, cut: all of its energy at motion 0 over there.
 Matrix6 cut_bond(const EndlessBond& law, const Eigen::Vector3d& e, double r) {
-  const ElasticBond& bond = law.elastic;
+  const ElasticBond& bond = law.of(static_cast<int>(e.squaredNorm()));
   Matrix6 cut = at_one_end(stiffness_matrix(bond.k_s, (bond.k_n - bond.k_s) / e.squaredNorm(), e), e, r);
   if (e.squaredNorm() == 1) {
     const Eigen::Matrix3d along = e * e.transpose(), across = Eigen::Matrix3d::Identity() - along;
@@ -218,7 +218,7 @@ Parts parts_of(Surroundings around, int d) {
 
 ElasticBond assembled(const Parts& parts, int group, const Material& material, double r) {
   const double E = material.young, nu = material.poisson, G = E / (2 * (1 + nu));
-  const ElasticBond cell = ElasticBond::from(material, r);
+  const ElasticBond cell = EndlessBond::from(material, r).of(group);
   if (group == 2) {
     const double share = 0.5 * parts.cells, k_n2 = r * nu * E / (1 - nu * nu);
     return {share * cell.k_n + parts.skins * k_n2, share * cell.k_s};
@@ -260,7 +260,7 @@ double surface_excess(const Lattice& lattice) {
       const auto at = static_cast<std::size_t>(d);
       const Eigen::Vector3d e(directions[at][0], directions[at][1], directions[at][2]);
       if (has_neighbour(kind.around, d))
-        S += stiffer_bond(kind, at, law.elastic, e, r);
+        S += stiffer_bond(kind, at, law.of(group(d)), e, r);
       else
         S -= cut_bond(law, e, r);
     }

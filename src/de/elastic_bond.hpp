@@ -73,14 +73,16 @@ struct Bending {
 
 /// Bonds of the endless consistent lattice.
 struct EndlessBond : Bending {
-  ElasticBond elastic;
+  ElasticBond near, far;  ///< of groups 1 and 2
 
   static EndlessBond from(const Material& m, double r) {
-    return {Bending::from(m, r), ElasticBond::from(m, r)};
+    const double lambda = m.lambda(), mu = m.mu();
+    return {Bending::from(m, r), {2 * r * (2 * mu - lambda), 4 * r * (mu - lambda)}, {2 * r * lambda, 0}};
   }
+  const ElasticBond& of(int group) const { return group == 1 ? near : far; }
   template <int D, class T>
   GEIST_INLINE void force(const T (&d)[3], T (&f)[3]) const {
-    elastic.force<D>(d, f);
+    of(group(D)).template force<D>(d, f);
   }
 };
 

@@ -87,13 +87,21 @@ struct Grid {
   std::size_t guard() const { return static_cast<std::size_t>(ny + 1) * stride() + lanes; }
 };
 
-/// A ghost particle: site s rides on a hexahedron at natural coordinates with shape-function values N.
+/// A node that a ghost rides on.
+struct GhostNode {
+  std::int32_t node;
+  double N;            ///< share of the node's displacement in the ghost's
+  Vec3 gradient = {};  ///< ∂N/∂x at the ghost, of the shape functions of its hexahedron
+};
+
+/// A ghost particle: site s rides on a hexahedron at natural coordinates ξ. Its nodes are that hexahedron's,
+/// N the shape functions (8) at ξ; or, where its face reaches over several hexahedra, all of theirs, N the
+/// means over the face (coupling/faces.hpp).
 struct Ghost {
   std::size_t site;
   std::int32_t element;
-  Vec3 xi;                            ///< natural coordinates (11)
-  std::array<double, 8> N;            ///< (8) at xi
-  std::array<Vec3, 8> gradient = {};  ///< ∂N_I/∂x at xi
+  Vec3 xi;  ///< (11)
+  std::vector<GhostNode> nodes = {};
 };
 
 /// How ghosts turn: not at all; by themselves ("one-step-back", (15)(24)), a degree of freedom of the

@@ -161,7 +161,7 @@ double memory_of(const Model& model) {
   for (const Lattice& l : model.lattices)
     bytes += static_cast<double>(l.grid.size()) * (18 * 8 + 4) +
              static_cast<double>(l.listed.size()) * (6 * 8 + 9) +
-             static_cast<double>(l.ghosts.size()) * sizeof(Ghost);
+             static_cast<double>(l.ghosts.size()) * (sizeof(Ghost) + 8 * sizeof(GhostNode));
   return bytes;
 }
 

@@ -48,7 +48,7 @@ PointBlocks::PointBlocks(const Model& model, const Places& places)
     : places_(places.size()), of_place_(places.size()), nodes_(model.mesh.nodes(), Eigen::Matrix3d::Zero()) {
   add_elements(model, places);
   for (std::size_t l = 0; l < model.lattices.size(); ++l)
-    add_lattice(model.lattices[l], static_cast<std::int32_t>(l), model, places);
+    add_lattice(model.lattices[l], static_cast<std::int32_t>(l), places);
   for_each(nodes_.size(), [this, &places](std::size_t i) {
     nodes_[i] = inverse_over<3>(nodes_[i], places[places.of_node(i)].free);
   });
@@ -64,8 +64,7 @@ void PointBlocks::add_elements(const Model& model, const Places& places) {
       mesh, [](std::size_t) { return true; }, add);
 }
 
-void PointBlocks::add_lattice(const Lattice& lattice, std::int32_t l, const Model& model,
-                              const Places& places) {
+void PointBlocks::add_lattice(const Lattice& lattice, std::int32_t l, const Places& places) {
   const de::BondMatrices bonds(lattice);
   std::map<std::array<std::uint32_t, 3>, std::int32_t> known;  // by bonds, law and freedom
   for (std::size_t s = 0; s < lattice.grid.size(); ++s) {
@@ -80,7 +79,7 @@ void PointBlocks::add_lattice(const Lattice& lattice, std::int32_t l, const Mode
   }
   for (const Ghost& ghost : lattice.ghosts) {
     const Eigen::Matrix3d K = own_stiffness(bonds, lattice, ghost.site).topLeftCorner<3, 3>();
-    for (int I = 0; I < 8; ++I) nodes_[model.mesh.elements[ghost.element][I]] += ghost.N[I] * ghost.N[I] * K;
+    for (const GhostNode& I : ghost.nodes) nodes_[I.node] += I.N * I.N * K;
   }
 }
 

@@ -18,7 +18,7 @@ class PointBlocks {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
   void add_elements(const Model& model, const Places& places);
-  void add_lattice(const Lattice& lattice, std::int32_t l, const Model& model, const Places& places);
+  void add_lattice(const Lattice& lattice, std::int32_t l, const Places& places);
 
   std::size_t places_;
   std::vector<std::int32_t> of_place_;  ///< index into nodes_, or −1 − index into sites_

@@ -153,10 +153,10 @@ class Assembly {
     strain.add(places_.block_of(k), B.lazyProduct(motion(k)));
     if (!ghost) return;
     const bool turn = lattice.ghost_rotation == GhostRotation::continuum;
-    for (int I = 0; I < 8; ++I) {
-      const std::int32_t node = places_.of_node(model_.mesh.elements[ghost->element][I]);
-      Eigen::Matrix<double, 6, 3> B_I = ghost->N[I] * B.leftCols<3>();
-      if (turn) B_I += B.rightCols<3>().lazyProduct(half_cross(ghost->gradient[I]));
+    for (const GhostNode& I : ghost->nodes) {
+      const std::int32_t node = places_.of_node(I.node);
+      Eigen::Matrix<double, 6, 3> B_I = I.N * B.leftCols<3>();
+      if (turn) B_I += B.rightCols<3>().lazyProduct(half_cross(I.gradient));
       strain.add(places_.block_of(node), B_I.lazyProduct(motion(node).topRows<3>()));
     }
   }

@@ -43,10 +43,10 @@ void expect_ghosts_follow_their_hexahedra(const Model& model) {
       const auto x = hex8::corners(model.mesh, ghost.element);
       Vec3 by_shape;
       double sum = 0;
-      for (int a = 0; a < 8; ++a) by_shape += ghost.N[a] * x[a], sum += ghost.N[a];
+      for (int a = 0; a < 8; ++a) by_shape += ghost.nodes[a].N * x[a], sum += ghost.nodes[a].N;
       EXPECT_LT(norm(by_shape - lattice.grid.centre(ghost.site)), 1e-12);
       EXPECT_NEAR(sum, 1, 1e-14);
-      for (const double n : ghost.N) EXPECT_GE(n, -1e-7);
+      for (const GhostNode& I : ghost.nodes) EXPECT_GE(I.N, -1e-7);
     }
 }
 

@@ -1,0 +1,88 @@
+#include "coupling/balance.hpp"
+
+#include <cmath>
+
+#include "geometry/hex8.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/Sparse>
+
+namespace geist::coupling {
+namespace {
+
+using Patterns = Eigen::Matrix<double, 8, 4>;
+
+/// Four orthonormal patterns on an element's corners that no linear field stirs.
+Patterns patterns(const hex8::Corners& x) {
+  const hex8::Corners& s = hex8::corner_xi;
+  Eigen::Matrix<double, 8, 8> basis;
+  for (int a = 0; a < 8; ++a)
+    basis.row(a) << 1, x[a].x - x[0].x, x[a].y - x[0].y, x[a].z - x[0].z, s[a].y * s[a].z, s[a].z * s[a].x,
+        s[a].x * s[a].y, s[a].x * s[a].y * s[a].z;
+  for (int k = 0; k < 8; ++k) {
+    for (int pass = 0; pass < 2; ++pass)
+      for (int m = 0; m < k; ++m) basis.col(k) -= basis.col(m).dot(basis.col(k)) * basis.col(m);
+    basis.col(k) /= basis.col(k).norm();
+  }
+  return basis.rightCols<4>();
+}
+
+/// Elements with a node at which the pulls differ by more than rounding.
+std::vector<std::int32_t> elements_at(const Mesh& mesh, const std::map<std::int32_t, Vec3>& defects) {
+  std::vector<std::int32_t> found;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const double area = std::cbrt(std::pow(hex8::volume(hex8::corners(mesh, e)), 2));
+    for (const std::int32_t node : mesh.elements[e])
+      if (const auto it = defects.find(node); it != defects.end() && norm(it->second) > 1e-8 * area) {
+        found.push_back(static_cast<std::int32_t>(e));
+        break;
+      }
+  }
+  return found;
+}
+
+/// What of an element's volume carries a correction: one that is almost gone would answer it with much
+/// strain.
+double weight(const Mesh& mesh, std::int32_t e, Cuts& cuts) {
+  const double all = hex8::volume(hex8::corners(mesh, static_cast<std::size_t>(e)));
+  return std::max(0.0, cuts.of(e).volume - 1e-3 * all);
+}
+
+}  // namespace
+
+void balance(const Mesh& mesh, const std::map<std::int32_t, Vec3>& defects, Cuts& cuts) {
+  const std::vector<std::int32_t> carriers = elements_at(mesh, defects);
+  if (carriers.empty()) return;
+  std::map<std::int32_t, int> row;  // by node
+  for (const std::int32_t e : carriers)
+    for (const std::int32_t node : mesh.elements[static_cast<std::size_t>(e)])
+      row.try_emplace(node, static_cast<int>(row.size()));
+  std::vector<Patterns> scaled;  // √V γ
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < carriers.size(); ++k) {
+    const auto& nodes = mesh.elements[static_cast<std::size_t>(carriers[k])];
+    scaled.push_back(std::sqrt(weight(mesh, carriers[k], cuts)) *
+                     patterns(hex8::corners(mesh, static_cast<std::size_t>(carriers[k]))));
+    for (int a = 0; a < 8; ++a)
+      for (int p = 0; p < 4; ++p)
+        entries.emplace_back(row[nodes[a]], static_cast<int>(4 * k) + p, scaled.back()(a, p));
+  }
+  Eigen::SparseMatrix<double> C(static_cast<Eigen::Index>(row.size()),
+                                static_cast<Eigen::Index>(4 * carriers.size()));
+  C.setFromTriplets(entries.begin(), entries.end());
+  Eigen::MatrixX3d R = Eigen::MatrixX3d::Zero(C.rows(), 3);
+  for (const auto& [node, defect] : defects)
+    if (const auto it = row.find(node); it != row.end()) R.row(it->second) << defect.x, defect.y, defect.z;
+  Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(C);
+  solver.setTolerance(1e-12);
+  solver.setMaxIterations(2000);
+  const Eigen::MatrixX3d q = solver.solve(R);  // of least norm, as it starts from nothing
+  for (std::size_t k = 0; k < carriers.size(); ++k) {
+    const Eigen::Matrix<double, 8, 3> G = scaled[k] * q.middleRows<4>(static_cast<Eigen::Index>(4 * k));
+    HexCut& cut = cuts.of(carriers[k]);
+    for (int a = 0; a < 8; ++a) cut.gradient[a] += Vec3{G(a, 0), G(a, 1), G(a, 2)};
+  }
+}
+
+}  // namespace geist::coupling
