@@ -1,5 +1,6 @@
 #include "coupling/balance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/hex8.hpp"
@@ -28,18 +29,26 @@ Patterns patterns(const hex8::Corners& x) {
   return basis.rightCols<4>();
 }
 
-/// Elements with a node at which the pulls differ by more than rounding.
-std::vector<std::int32_t> elements_at(const Mesh& mesh, const std::map<std::int32_t, Vec3>& defects) {
-  std::vector<std::int32_t> found;
+/// Elements that take part in the correction: those with a node at which the pulls differ by more than
+/// rounding, and the cut ones, which lead from one corner of an interface to the next; none if the pulls
+/// agree.
+std::vector<std::int32_t> carriers_of(const Mesh& mesh, const std::map<std::int32_t, Vec3>& defects,
+                                      Cuts& cuts) {
+  std::vector<std::int32_t> carriers;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const double area = std::cbrt(std::pow(hex8::volume(hex8::corners(mesh, e)), 2));
-    for (const std::int32_t node : mesh.elements[e])
-      if (const auto it = defects.find(node); it != defects.end() && norm(it->second) > 1e-8 * area) {
-        found.push_back(static_cast<std::int32_t>(e));
-        break;
-      }
+    const auto differ = [&](std::int32_t node) {
+      const auto it = defects.find(node);
+      return it != defects.end() && norm(it->second) > 1e-8 * area;
+    };
+    if (std::any_of(mesh.elements[e].begin(), mesh.elements[e].end(), differ))
+      carriers.push_back(static_cast<std::int32_t>(e));
   }
-  return found;
+  if (carriers.empty()) return carriers;
+  for (const HexCut& cut : cuts.finished()) carriers.push_back(cut.element);
+  std::sort(carriers.begin(), carriers.end());
+  carriers.erase(std::unique(carriers.begin(), carriers.end()), carriers.end());
+  return carriers;
 }
 
 /// What of an element's volume carries a correction: one that is almost gone would answer it with much
@@ -52,7 +61,7 @@ double weight(const Mesh& mesh, std::int32_t e, Cuts& cuts) {
 }  // namespace
 
 void balance(const Mesh& mesh, const std::map<std::int32_t, Vec3>& defects, Cuts& cuts) {
-  const std::vector<std::int32_t> carriers = elements_at(mesh, defects);
+  const std::vector<std::int32_t> carriers = carriers_of(mesh, defects, cuts);
   if (carriers.empty()) return;
   std::map<std::int32_t, int> row;  // by node
   for (const std::int32_t e : carriers)
