@@ -130,7 +130,7 @@ bool holds(const std::pair<int, Parts>& kind, double poisson) {
 double last_poisson(const std::pair<int, Parts>& kind, double limit) {
   double good = 0.125, bad = limit;
   for (int n = 0; n < 60; ++n) (holds(kind, (good + bad) / 2) ? good : bad) = (good + bad) / 2;
-  return good;
+  return std::abs(good) < 1e-10 ? 0 : good;
 }
 
 std::string words(const std::pair<int, Parts>& kind) {
