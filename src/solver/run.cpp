@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fe/elements.hpp"
+
 namespace geist {
 namespace {
 
@@ -75,6 +77,26 @@ std::string describe(const Model& model, const contact::DeepContact& deep) {
       "contact law is made for {:.3g} at most: raise stiffness_factor, or refine",
       model.step, model.time, region_name(model, deep.region), place, p.x, p.y, p.z, deep.overlap,
       region_name(model, deep.other), deep.allowed);
+}
+
+/// The element that is turned inside out, in words; empty if none is.
+std::string inverted(const Mesh& mesh) {
+  const auto e = fe::first_inverted(mesh);
+  if (!e) return {};
+  Vec3 x;
+  for (const std::int32_t i : mesh.elements[*e]) x += 0.125 * (mesh.points[i] + mesh.u.vector(i));
+  const HexRegion& region = mesh.regions[region_of(mesh, static_cast<std::int32_t>(*e))];
+  return fmt::format(
+      "region '{}', element {} at ({:.6g}, {:.6g}, {:.6g}) is turned inside out: it is strained too far for "
+      "its elastic law",
+      region.name, *e - region.first, x.x, x.y, x.z);
+}
+
+/// Why the kinetic energy is not a number any more.
+std::string what_is_wrong(const Model& model) {
+  if (const std::string element = inverted(model.mesh); !element.empty()) return element;
+  const std::string place = first_not_finite(model);
+  return (place.empty() ? "the kinetic energy" : place) + " is not a number any more";
 }
 
 /// One run under way.
@@ -151,11 +173,10 @@ class Runner {
   }
 
   void fail_not_finite(bool watched) {
-    const std::string place = first_not_finite(sim_.model);
-    outcome_ = {Status::failed,
-                fmt::format("step {}, time {:.6g}: {} is not a number any more", sim_.model.step,
-                            sim_.model.time, place.empty() ? "the kinetic energy" : place),
-                {}};
+    outcome_ = {
+        Status::failed,
+        fmt::format("step {}, time {:.6g}: {}", sim_.model.step, sim_.model.time, what_is_wrong(sim_.model)),
+        {}};
     if (watched) last_.ledger = sim_.ledger();
   }
 
