@@ -92,11 +92,11 @@ std::string inverted(const Mesh& mesh) {
       region.name, *e - region.first, x.x, x.y, x.z);
 }
 
-/// Why the kinetic energy is not a number any more.
+/// Why the energy is not a number any more.
 std::string what_is_wrong(const Model& model) {
   if (const std::string element = inverted(model.mesh); !element.empty()) return element;
   const std::string place = first_not_finite(model);
-  return (place.empty() ? "the kinetic energy" : place) + " is not a number any more";
+  return (place.empty() ? "the energy" : place) + " is not a number any more";
 }
 
 /// One run under way.
@@ -137,7 +137,10 @@ class Runner {
     sim_.step(watch);
     warn();
     reported_history_ = reported_fields_ = false;
-    if (!std::isfinite(sim_.kinetic_energy())) return fail_not_finite(watch);
+    if (!std::isfinite(sim_.kinetic_energy())) {
+      if (watch) last_.ledger = sim_.ledger();
+      return fail_not_finite();
+    }
     if (watch) observe();
     if (history) report_history();
     if (fields) report_fields();
@@ -159,6 +162,7 @@ class Runner {
 
   void check_balance() {
     const Ledger& l = last_.ledger;
+    if (!std::isfinite(l.balance())) return fail_not_finite();
     largest_ =
         std::max({largest_, l.kinetic() + l.internal() + std::abs(l.dissipated()), std::abs(l.external)});
     if (sim_.model.step < plan_.check_every || std::abs(l.balance()) <= plan_.balance_tolerance * largest_)
@@ -172,12 +176,11 @@ class Runner {
         {}};
   }
 
-  void fail_not_finite(bool watched) {
+  void fail_not_finite() {
     outcome_ = {
         Status::failed,
         fmt::format("step {}, time {:.6g}: {}", sim_.model.step, sim_.model.time, what_is_wrong(sim_.model)),
         {}};
-    if (watched) last_.ledger = sim_.ledger();
   }
 
   /// Whether the run is over; sets the outcome.
