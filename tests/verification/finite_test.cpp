@@ -194,6 +194,31 @@ kinematics = "finite"
                   100 * (-tip.x / (1 - exact.x) - 1), slope * 180 / M_PI, 100 * (slope / exact.slope - 1)));
 }
 
+/// The bound of undeformed elements is used to the full, and half of the energy goes into strains of tens of
+/// per cent: what grew would grow a thousandfold within a few hundred steps.
+TEST_P(FiniteBy, StrainedBodyIsStableAtTheBound) {
+  Case input = spinning(GetParam());
+  input.analysis.safety = 1;
+  set_threads(1);
+  Simulation sim = std::move(build(input).simulation);
+  Mesh& mesh = sim.model.mesh;
+  for (std::size_t i = 0; i < mesh.nodes(); ++i) {
+    const Vec3 X = mesh.points[i] - Vec3{2, 1, 0.5};
+    mesh.v.add(i, 150 * Vec3{0, -X.x * X.z, X.x * X.y});  // twists
+  }
+  sim.start();
+  double most = 0;
+  for (int n = 1; n <= 10'000; ++n) {
+    sim.step(n % 20 == 0);
+    if (n % 20 != 0) continue;
+    const Ledger now = sim.ledger();
+    most = std::max(most, std::sqrt(2 * now.internal() / (1000 * 7.6)));
+    ASSERT_LT(std::abs(now.balance()), 0.03 * now.initial) << n;
+  }
+  EXPECT_GT(most, 0.07);
+  RecordProperty("strain", fmt::format("{:.3f}", most));
+}
+
 /// A cube is squashed to nothing by its supports: the run ends where its volume would be negative, and says
 /// so.
 TEST(Finite, AnElementTurnedInsideOutEndsTheRun) {
