@@ -82,6 +82,40 @@ TEST(Mesh, PatchThatTurnsFarHoldsConstantStress) {
   }
 }
 
+/// What is left is half of every gradient and half of the volume: half of everything, turned far and
+/// strained.
+TEST(Mesh, CutHexahedraTurnToo) {
+  for (const std::string& name : names) {
+    Mesh mesh = box({1, 1, 2}, {1, 1, 2}, name, material, scatter_inside(0.07));
+    mesh.kinematics = Kinematics::finite;
+    set_random(mesh);
+    for (std::size_t n = 0; n < mesh.nodes(); ++n) {
+      const Vec3 x = mesh.points[n] + 0.1 * mesh.u.vector(n);
+      mesh.u.set(n, Vec3{x.z, x.x, x.y} - mesh.points[n]);
+    }
+    const double power = internal_forces(mesh);
+    const std::vector<double> whole = mesh.corner_force;
+    const Energies stored = energies(mesh);
+    std::vector<HexCut> cuts(2);
+    for (int e = 0; e < 2; ++e) {
+      const hex8::Corners x = hex8::corners(mesh, e);
+      cuts[e].element = e, cuts[e].volume = 0.5 * hex8::volume(x);
+      const auto b = mean_position_gradient(x);
+      for (int a = 0; a < 8; ++a) cuts[e].gradient[a] = cuts[e].volume * b[a];
+    }
+    set_cuts(mesh, cuts);
+    EXPECT_NEAR(internal_forces(mesh), 0.5 * power, 1e-13);
+    EXPECT_NEAR(energies(mesh).strain, 0.5 * stored.strain, 1e-13);
+    EXPECT_NEAR(energies(mesh).hourglass, 0.5 * stored.hourglass, 1e-13);
+    for (int a = 0; a < 8; ++a)
+      for (int c = 0; c < 3; ++c)
+        for (int l = 0; l < 2; ++l) {
+          const std::size_t i = corner_slot(0, a, l) + lanes * c;
+          EXPECT_NEAR(mesh.corner_force[i], 0.5 * whole[i], 1e-13);
+        }
+  }
+}
+
 TEST(Mesh, FirstElementTurnedInsideOut) {
   Mesh mesh = box({1, 1, 3}, {1, 1, 3}, "one-point", material);
   for (std::size_t n = 0; n < mesh.nodes(); ++n)
