@@ -11,12 +11,10 @@
 namespace geist::bench {
 namespace {
 
-/// A name without its suffix, which says that contact is watched for.
-constexpr std::string_view watched = "+contact";
-bool is_watched(const std::string& name) { return name.ends_with(watched); }
-std::string material_of(const std::string& name) {
-  return is_watched(name) ? name.substr(0, name.size() - watched.size()) : name;
-}
+/// What may follow a name: contact is watched for, or rotations are finite.
+bool is_watched(const std::string& name) { return name.ends_with("+contact"); }
+bool turns(const std::string& name) { return name.ends_with("+finite"); }
+std::string material_of(const std::string& name) { return name.substr(0, name.find('+')); }
 
 /// A small block beside the cube, too far to be touched, and contact between all.
 std::string watched_text(int edge) {
@@ -61,9 +59,10 @@ total_force = [{2}, 0, 0]
 spin = [0.01, 0.02, 0.03]
 [analysis]
 type = "dynamic"
+kinematics = "{3}"
 duration = 1e6
 )",
-                     edge, region, edge * edge) +
+                     edge, region, edge * edge, turns(full_name) ? "finite" : "small") +
          (is_watched(full_name) ? watched_text(edge) : std::string());
 }
 
@@ -82,7 +81,8 @@ void add_element_kernels(Subject& s) {
   s.working_set = mesh.corner_force.size() * sizeof(double) + mesh.blocks.size() * sizeof(HexBlock) +
                   (mesh.gather.size() + mesh.nodes()) * sizeof(std::int32_t) +
                   mesh.nodes() * (13 * sizeof(double) + 1);
-  s.kernels = {{"internal forces", [&] { fe::internal_forces(mesh); }, internal_forces(material_of(s.name))},
+  s.kernels = {{"internal forces", [&] { fe::internal_forces(mesh); },
+                internal_forces(material_of(s.name), turns(s.name))},
                {"gather and kick",
                 [&] {
                   gather_internal_forces(mesh);

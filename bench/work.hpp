@@ -19,7 +19,7 @@ Work bonds_and_kick();
 Work lattice_drift();
 
 /// By element; a large block has as many nodes as elements.
-Work internal_forces(const std::string& formulation);
+Work internal_forces(const std::string& formulation, bool finite);
 Work gather_and_kick();
 Work node_drift();
 

@@ -165,6 +165,13 @@ void couple(Model& model, const Case& input) {
   fe::lump_masses(model.mesh);
 }
 
+void set_kinematics(Model& model, const Case& input) {
+  const Kinematics kinematics =
+      input.analysis.kinematics == "finite" ? Kinematics::finite : Kinematics::small;
+  model.mesh.kinematics = kinematics;
+  for (Lattice& lattice : model.lattices) lattice.kinematics = kinematics;
+}
+
 /// Ghosts that do not spin by themselves: their rotation is not for the kick.
 void hold_ghost_spins(Model& model) {
   for (Lattice& lattice : model.lattices)
@@ -189,6 +196,7 @@ Built build(const Case& input) {
   Simulation& sim = built.simulation;
   check_memory(input);
   make_regions(sim.model, input);
+  set_kinematics(sim.model, input);
   couple(sim.model, input);
   const Selector selector(sim.model);
   sim.supports = make_supports(input, selector);

@@ -110,6 +110,7 @@ struct ProbeSpec {
 struct AnalysisSpec {
   std::string type;                  ///< "dynamic", "quasi-static", "static"
   std::string start = "undeformed";  ///< dynamic: or "static", at equilibrium under the loads of time 0
+  std::string kinematics = "small";  ///< or "finite"
   double duration = 0;               ///< dynamic: the end; quasi-static: give up then (0: after max_steps)
   double tolerance = 1e-6;           ///< static, quasi-static: residual / load
   long max_iterations = 10'000;      ///< static

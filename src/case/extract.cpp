@@ -154,6 +154,7 @@ AnalysisSpec analysis_of(const View& view) {
   spec.type = word(view, "type");
   spec.duration = view.get<double>("duration").value_or(0);
   spec.start = view.get<std::string>("start").value_or(spec.start);
+  spec.kinematics = word(view, "kinematics");
   spec.max_iterations = view.get<long>("max_iterations").value_or(spec.max_iterations);
   spec.tolerance = view.get<double>("tolerance").value_or(spec.tolerance);
   spec.max_steps = view.get<long>("max_steps").value();

@@ -145,6 +145,11 @@ Table analysis_table() {
               "are at time 0; [[initial]] adds its velocities.")
            .otherwise("\"undeformed\"")
            .when(dynamic),
+       choice("kinematics", {"small", "finite"},
+              "Displacements: small, with directions frozen as in the papers; or finite, where every "
+              "hexahedron's axes turn "
+              "with it: rotations may be any, strains moderate. Hexahedra only, and not with static.")
+           .otherwise("\"small\""),
        number("duration", "time",
               "Dynamic: the end of the run. Quasi-static: where to give up (without it, "
               "after max_steps).")

@@ -96,6 +96,21 @@ void check_static(Document& document, const View& root, const View& analysis) {
     document.report(analysis.place("type"), "a static analysis knows no velocity: it has no [[initial]]");
 }
 
+/// What cannot turn yet.
+void check_finite(Document& document, const View& root, const View& analysis) {
+  const bool lattices = std::ranges::any_of(
+      root.named("regions"), [](const View& region) { return region.get<std::string>("type") == "lattice"; });
+  if (lattices)
+    document.report(
+        analysis.place("kinematics"),
+        "'kinematics' = \"finite\" is for cases of hexahedra alone: the bonds of a lattice are made "
+        "for small displacements");
+  else if (analysis.get<std::string>("type") == "static" || analysis.get<std::string>("start") == "static")
+    document.report(analysis.place("kinematics"),
+                    "equilibrium is solved for with small displacements; with finite ones, type = "
+                    "\"quasi-static\" finds it");
+}
+
 void check_analysis(Document& document, const View& root) {
   const auto analysis = root.table("analysis");
   if (!analysis) return;
@@ -104,6 +119,7 @@ void check_analysis(Document& document, const View& root) {
   if (type == "static") check_static(document, root, *analysis);
   if (type == "dynamic" && analysis->get<std::string>("start") == "static")
     check_equilibrium(document, root, *analysis, "start");
+  if (analysis->get<std::string>("kinematics") == "finite") check_finite(document, root, *analysis);
 }
 
 }  // namespace

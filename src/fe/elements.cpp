@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/parallel.hpp"
+#include "fe/corotational.hpp"
 #include "fe/cut.hpp"
 #include "fe/formulations.hpp"
 #include "fe/gather.hpp"
@@ -27,22 +28,30 @@ double sum_real_lanes(Pack a, int real) {
   return s;
 }
 
-/// The formulations of a mesh's blocks: as they are, or cut.
+/// The formulations of a mesh's blocks: as they are, or cut; and turning with their elements, or not.
 struct Blocks {
   const HexBlock* block;
   const BlockCut* cuts;
   const std::int32_t* cut_of_block;  ///< null if there are none
+  bool turn;
 
   explicit Blocks(const Mesh& mesh)
       : block(mesh.blocks.data()),
         cuts(mesh.block_cuts.data()),
-        cut_of_block(mesh.cuts.empty() ? nullptr : mesh.cut_of_block.data()) {}
+        cut_of_block(mesh.cuts.empty() ? nullptr : mesh.cut_of_block.data()),
+        turn(mesh.kinematics == Kinematics::finite) {}
 
   template <class Formulation, class Visit>
   GEIST_INLINE auto visit(std::size_t b, const Formulation& formulation, Visit visit_one) const {
     if (cut_of_block && cut_of_block[b] >= 0)
-      return visit_one(Cut<Formulation>{formulation, cuts[cut_of_block[b]]});
-    return visit_one(formulation);
+      return visit_turned(Cut<Formulation>{formulation, cuts[cut_of_block[b]]}, visit_one);
+    return visit_turned(formulation, visit_one);
+  }
+
+ private:
+  template <class Formulation, class Visit>
+  GEIST_INLINE auto visit_turned(const Formulation& formulation, Visit visit_one) const {
+    return turn ? visit_one(Corotational<Formulation>{formulation}) : visit_one(formulation);
   }
 };
 
@@ -112,10 +121,15 @@ Corners<double> corner_values(const Mesh& mesh, const Field<3>& field, std::size
   return x;
 }
 
-std::array<double, 6> centre_stress(const Corners<double>& X, const Corners<double>& u, const Material& m) {
+std::array<double, 6> centre_stress(Kinematics kinematics, const Corners<double>& X, const Corners<double>& u,
+                                    const Material& m) {
   double L[3][3], s[3][3];
-  mean_of_gradient(mean_gradient(to_modes(X)), to_modes(u), L);
-  hooke(m.lambda(), m.mu(), L, s);
+  if (kinematics == Kinematics::finite) {
+    turned_stress(m.lambda(), m.mu(), TurningAxes<double>(X, u), s);
+  } else {
+    mean_of_gradient(mean_gradient(to_modes(X)), to_modes(u), L);
+    hooke(m.lambda(), m.mu(), L, s);
+  }
   return {s[0][0], s[1][1], s[2][2], s[0][1], s[1][2], s[0][2]};
 }
 
@@ -176,11 +190,23 @@ std::vector<std::array<double, 6>> centre_stresses(const Mesh& mesh) {
         region.count,
         [=, &mesh, &region](std::size_t i) {
           const std::size_t e = region.first + i;
-          out[e] =
-              centre_stress(corner_values(mesh, mesh.X, e), corner_values(mesh, mesh.u, e), region.material);
+          out[e] = centre_stress(mesh.kinematics, corner_values(mesh, mesh.X, e),
+                                 corner_values(mesh, mesh.u, e), region.material);
         },
         grain * lanes);
   return stresses;
+}
+
+std::optional<std::size_t> first_inverted(const Mesh& mesh) {
+  if (mesh.kinematics == Kinematics::small) return {};
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    double F[3][3], normal[3];
+    mean_deformation(mean_gradient(to_modes(corner_values(mesh, mesh.X, e))),
+                     to_modes(corner_values(mesh, mesh.u, e)), F);
+    cross(F[1], F[2], normal);
+    if (dot(F[0], normal) <= 0) return e;
+  }
+  return {};
 }
 
 std::array<double, 8> corner_masses(const Mesh& mesh, std::size_t element) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "model/mesh.hpp"
@@ -20,8 +21,12 @@ struct Energies {
 };
 Energies energies(const Mesh& mesh);
 
-/// Stress of the mean strain, by element: xx, yy, zz, xy, yz, xz.
+/// Stress of the mean strain in global axes, by element: xx, yy, zz, xy, yz, xz.
 std::vector<std::array<double, 6>> centre_stresses(const Mesh& mesh);
+
+/// The first element whose mean deformation turns it inside out, det F ≤ 0. With finite kinematics it has no
+/// rotation, and its forces are not numbers; small kinematics asks for none.
+std::optional<std::size_t> first_inverted(const Mesh& mesh);
 
 /// From now on these elements are cut (in order of elements); others are whole.
 void set_cuts(Mesh& mesh, std::vector<HexCut> cuts);

@@ -82,7 +82,7 @@ double lattice_residual(const Lattice& lattice, Imbalance imbalance) {
 Ledger Simulation::ledger() {
   const auto timing = timers.time(Phase::observe);
   const Mesh& mesh = model.mesh;
-  const bool present = !contacts.empty();
+  const bool present = !contacts.empty() || mesh.kinematics == Kinematics::finite;
   Share all =
       sum<Share>(mesh.nodes(), [&mesh, present](std::size_t i) { return node_share(mesh, i, present); });
   const fe::Energies elements = fe::energies(mesh);

@@ -22,7 +22,7 @@ struct Ledger {
   // Momenta
   Vec3 linear;  ///< Σ m v
   /// Σ X × m v + I ω about the origin, ghost spin included. Reference positions, which bonds and hexahedra of
-  /// small displacement keep; with contact, present positions X + u, which contacts keep.
+  /// small displacement keep; with contact or finite kinematics, present positions X + u, which these keep.
   Vec3 angular;
 
   double kinetic() const { return kinetic_translation + kinetic_rotation; }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fe/elements.hpp"
+
 namespace geist {
 namespace {
 
@@ -77,6 +79,26 @@ std::string describe(const Model& model, const contact::DeepContact& deep) {
       region_name(model, deep.other), deep.allowed);
 }
 
+/// The element that is turned inside out, in words; empty if none is.
+std::string inverted(const Mesh& mesh) {
+  const auto e = fe::first_inverted(mesh);
+  if (!e) return {};
+  Vec3 x;
+  for (const std::int32_t i : mesh.elements[*e]) x += 0.125 * (mesh.points[i] + mesh.u.vector(i));
+  const HexRegion& region = mesh.regions[region_of(mesh, static_cast<std::int32_t>(*e))];
+  return fmt::format(
+      "region '{}', element {} at ({:.6g}, {:.6g}, {:.6g}) is turned inside out: it is strained too far for "
+      "its elastic law",
+      region.name, *e - region.first, x.x, x.y, x.z);
+}
+
+/// Why the energy is not a number any more.
+std::string what_is_wrong(const Model& model) {
+  if (const std::string element = inverted(model.mesh); !element.empty()) return element;
+  const std::string place = first_not_finite(model);
+  return (place.empty() ? "the energy" : place) + " is not a number any more";
+}
+
 /// One run under way.
 class Runner {
  public:
@@ -115,7 +137,10 @@ class Runner {
     sim_.step(watch);
     warn();
     reported_history_ = reported_fields_ = false;
-    if (!std::isfinite(sim_.kinetic_energy())) return fail_not_finite(watch);
+    if (!std::isfinite(sim_.kinetic_energy())) {
+      if (watch) last_.ledger = sim_.ledger();
+      return fail_not_finite();
+    }
     if (watch) observe();
     if (history) report_history();
     if (fields) report_fields();
@@ -137,6 +162,7 @@ class Runner {
 
   void check_balance() {
     const Ledger& l = last_.ledger;
+    if (!std::isfinite(l.balance())) return fail_not_finite();
     largest_ =
         std::max({largest_, l.kinetic() + l.internal() + std::abs(l.dissipated()), std::abs(l.external)});
     if (sim_.model.step < plan_.check_every || std::abs(l.balance()) <= plan_.balance_tolerance * largest_)
@@ -150,13 +176,11 @@ class Runner {
         {}};
   }
 
-  void fail_not_finite(bool watched) {
-    const std::string place = first_not_finite(sim_.model);
-    outcome_ = {Status::failed,
-                fmt::format("step {}, time {:.6g}: {} is not a number any more", sim_.model.step,
-                            sim_.model.time, place.empty() ? "the kinetic energy" : place),
-                {}};
-    if (watched) last_.ledger = sim_.ledger();
+  void fail_not_finite() {
+    outcome_ = {
+        Status::failed,
+        fmt::format("step {}, time {:.6g}: {}", sim_.model.step, sim_.model.time, what_is_wrong(sim_.model)),
+        {}};
   }
 
   /// Whether the run is over; sets the outcome.

@@ -107,6 +107,7 @@ velocity = [0, 0, 1]
 [analysis]
 type = "dynamic"
 start = "undeformed"
+kinematics = "small"
 duration = 0.01
 max_steps = 1000
 safety = 0.8

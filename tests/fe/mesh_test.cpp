@@ -54,6 +54,84 @@ TEST(Mesh, PatchOfDistortedHexahedraHoldsConstantStress) {
   }
 }
 
+/// u = (Q U − 1) X on distorted elements, Q by a third of a turn about the diagonal: stresses are those of U
+/// − 1, turned, the same in every element, and nothing is out of balance inside.
+TEST(Mesh, PatchThatTurnsFarHoldsConstantStress) {
+  const Mat3 U{{Vec3{1.05, 0.02, 0}, Vec3{0.02, 0.97, -0.03}, Vec3{0, -0.03, 1.1}}};
+  const Mat3 s = stress({{U[0] - Vec3{1, 0, 0}, U[1] - Vec3{0, 1, 0}, U[2] - Vec3{0, 0, 1}}},
+                        material.lambda(), material.mu());
+  for (const std::string& name : names) {
+    Mesh mesh = box({3, 3, 3}, {1, 1, 1}, name, material, scatter_inside(0.07));
+    mesh.kinematics = Kinematics::finite;
+    for (std::size_t n = 0; n < mesh.nodes(); ++n) {
+      const Vec3 X = mesh.points[n], x = U * X;
+      mesh.u.set(n, Vec3{x.z, x.x, x.y} - X + Vec3{1, 2, 3});
+    }
+    EXPECT_NEAR(internal_forces(mesh), 0, 1e-28);
+    for (std::size_t p = 0; p < mesh.nodes(); ++p) {
+      const Vec3 X = mesh.points[p];
+      if (X.x * X.y * X.z * (1 - X.x) * (1 - X.y) * (1 - X.z) > 1e-12) {
+        EXPECT_LT(norm(node_force(mesh, p)), 2e-14) << name << " node " << p;
+      }
+    }
+    const auto turned = [&](int i, int j) { return s[(i + 2) % 3][(j + 2) % 3]; };
+    const double voigt[6] = {turned(0, 0), turned(1, 1), turned(2, 2),
+                             turned(0, 1), turned(1, 2), turned(0, 2)};
+    for (const auto& found : centre_stresses(mesh))
+      for (int c = 0; c < 6; ++c) EXPECT_NEAR(found[c], voigt[c], 1e-13);
+  }
+}
+
+/// What is left is half of every gradient and half of the volume: half of everything, turned far and
+/// strained.
+TEST(Mesh, CutHexahedraTurnToo) {
+  for (const std::string& name : names) {
+    Mesh mesh = box({1, 1, 2}, {1, 1, 2}, name, material, scatter_inside(0.07));
+    mesh.kinematics = Kinematics::finite;
+    set_random(mesh);
+    for (std::size_t n = 0; n < mesh.nodes(); ++n) {
+      const Vec3 x = mesh.points[n] + 0.1 * mesh.u.vector(n);
+      mesh.u.set(n, Vec3{x.z, x.x, x.y} - mesh.points[n]);
+    }
+    const double power = internal_forces(mesh);
+    const std::vector<double> whole = mesh.corner_force;
+    const Energies stored = energies(mesh);
+    std::vector<HexCut> cuts(2);
+    for (int e = 0; e < 2; ++e) {
+      const hex8::Corners x = hex8::corners(mesh, e);
+      cuts[e].element = e, cuts[e].volume = 0.5 * hex8::volume(x);
+      const auto b = mean_position_gradient(x);
+      for (int a = 0; a < 8; ++a) cuts[e].gradient[a] = cuts[e].volume * b[a];
+    }
+    set_cuts(mesh, cuts);
+    EXPECT_NEAR(internal_forces(mesh), 0.5 * power, 1e-13);
+    EXPECT_NEAR(energies(mesh).strain, 0.5 * stored.strain, 1e-13);
+    EXPECT_NEAR(energies(mesh).hourglass, 0.5 * stored.hourglass, 1e-13);
+    for (int a = 0; a < 8; ++a)
+      for (int c = 0; c < 3; ++c)
+        for (int l = 0; l < 2; ++l) {
+          const std::size_t i = corner_slot(0, a, l) + lanes * c;
+          EXPECT_NEAR(mesh.corner_force[i], 0.5 * whole[i], 1e-13);
+        }
+  }
+}
+
+TEST(Mesh, FirstElementTurnedInsideOut) {
+  Mesh mesh = box({1, 1, 3}, {1, 1, 3}, "one-point", material);
+  for (std::size_t n = 0; n < mesh.nodes(); ++n)
+    if (mesh.points[n].z >= 2) mesh.u.set(n, {0, 0, -1.1});
+  EXPECT_FALSE(first_inverted(mesh));  // it may be, where displacements are small
+  mesh.kinematics = Kinematics::finite;
+  EXPECT_EQ(first_inverted(mesh), std::optional<std::size_t>(1));
+  internal_forces(mesh);
+  EXPECT_TRUE(std::isnan(norm(node_force(mesh, 8))));
+  EXPECT_FALSE(std::isnan(norm(node_force(mesh, 0))));
+  mesh.u.set(8, {std::nan(""), 0, 0});
+  for (std::size_t n = 0; n < mesh.nodes(); ++n)
+    if (n != 8) mesh.u.set(n, {});
+  EXPECT_FALSE(first_inverted(mesh));  // no number is no shape at all
+}
+
 TEST(Mesh, PatchIsReallyDistorted) {
   const Mesh mesh = box({3, 3, 3}, {1, 1, 1}, "full", material, scatter_inside(0.07));
   double twist = 0;

@@ -78,4 +78,54 @@ type = "dynamic"
 duration = 1
 )";
 
+/// Hexahedra of every formulation in a row that spins, bends and turns far; enough of each to share out.
+inline constexpr const char* spinning_row = R"(
+units = { length = "mm", mass = "g", time = "ms" }
+[materials.m]
+density = 0.001
+young = 1000
+poisson = 0.3
+[regions.full]
+type = "hexahedra"
+material = "m"
+corners = [[-1, 0.1, 0], [0, 0, 0], [0, 1, 0], [-1.1, 1, 0], [-1, 0, 1], [0, 0, 1], [0, 1, 1], [-1, 1, 1.2]]
+divisions = [8, 6, 6]
+formulation = "full"
+[regions.selective]
+type = "hexahedra"
+material = "m"
+box = [[0, 0, 0], [1, 1, 1]]
+divisions = [8, 6, 6]
+formulation = "selective-reduced"
+[regions.assumed]
+type = "hexahedra"
+material = "m"
+box = [[1, 0, 0], [2, 1, 1]]
+divisions = [8, 6, 6]
+formulation = "assumed-strain"
+[regions.one]
+type = "hexahedra"
+material = "m"
+box = [[2, 0, 0], [3, 1, 1]]
+divisions = [8, 6, 6]
+formulation = "one-point"
+[regions.viscous]
+type = "hexahedra"
+material = "m"
+box = [[3, 0, 0], [4, 1, 1]]
+divisions = [8, 6, 6]
+formulation = "one-point"
+hourglass = "viscous"
+[[initial]]
+velocity = [1, -2, 3]
+spin = [10, 20, -60]
+[[initial]]
+where = { x = [3, 4] }
+velocity = [0, 0, 60]
+[analysis]
+type = "dynamic"
+kinematics = "finite"
+duration = 1
+)";
+
 }  // namespace geist::verification

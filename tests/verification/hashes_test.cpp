@@ -70,11 +70,12 @@ TEST_P(GoldenHashByThreads, IsTheSame) {
 INSTANTIATE_TEST_SUITE_P(Threads, GoldenHashByThreads, ::testing::Values(1, 2, 3, 4));
 
 /// The other formulations, distorted elements, both inertias, loaded and held particles: 2000 dynamic steps.
-std::string small_hash(const char* text, const std::vector<std::string>& set = {}) {
-  set_threads(1);
+std::string small_hash(const char* text, const std::vector<std::string>& set = {}, int threads = 1) {
+  set_threads(threads);
   Simulation sim = std::move(build(read_case_text(text, "small.toml", set)).simulation);
   sim.start();
   for (int n = 0; n < 2000; ++n) sim.step(n % 100 == 0);
+  set_threads(1);
   return state_hash(sim.model);
 }
 
@@ -84,6 +85,10 @@ TEST(GoldenHash, SmallBodies) {
   EXPECT_EQ(small_hash(L_around_a_box, {"regions.block.hourglass=viscous"}), "a720c731724362b3");
   EXPECT_EQ(small_hash(box_in_an_L, {"method=consistent"}), "f5070812e6a612e4");
   EXPECT_EQ(small_hash(L_around_a_box, {"method=consistent"}), "df472fdd3eef43b7");
+}
+
+TEST_P(GoldenHashByThreads, IsTheSameForFiniteRotations) {
+  EXPECT_EQ(small_hash(spinning_row, {}, GetParam()), "8c3a3f056632edf0");
 }
 
 /// Watching every step, hardly ever, or on a grid of times changes no bit.
