@@ -141,6 +141,9 @@ struct Lattice {
   // ω.
   Field<6> motion, velocity;
   Field<6> velocity_before;  ///< half a step before motion's time; valid on observed steps only
+  // Finite rotations only, in place of θ, which stays 0: R − I column by column. Component 3c + a is the part
+  // along axis a of what column c, the direction that the grid's axis c has turned to, differs from e_c.
+  Field<9> rotation;
 
   // Sites whose force the lattice kernel hands over instead of advancing them (ghosts; loaded or supported
   // particles), in ascending order, and that force and moment. listed_begin[row] .. listed_begin[row + 1].
