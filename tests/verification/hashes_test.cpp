@@ -70,9 +70,11 @@ TEST_P(GoldenHashByThreads, IsTheSame) {
 INSTANTIATE_TEST_SUITE_P(Threads, GoldenHashByThreads, ::testing::Values(1, 2, 3, 4));
 
 /// The other formulations, distorted elements, both inertias, loaded and held particles: 2000 dynamic steps.
-std::string small_hash(const char* text, const std::vector<std::string>& set = {}) {
-  set_threads(1);
+std::string small_hash(const char* text, const std::vector<std::string>& set = {},
+                       Kinematics lattices = Kinematics::small, int threads = 1) {
+  set_threads(threads);
   Simulation sim = std::move(build(read_case_text(text, "small.toml", set)).simulation);
+  if (lattices == Kinematics::finite) rotate_finitely(sim);
   sim.start();
   for (int n = 0; n < 2000; ++n) sim.step(n % 100 == 0);
   return state_hash(sim.model);
@@ -84,6 +86,14 @@ TEST(GoldenHash, SmallBodies) {
   EXPECT_EQ(small_hash(L_around_a_box, {"regions.block.hourglass=viscous"}), "a720c731724362b3");
   EXPECT_EQ(small_hash(box_in_an_L, {"method=consistent"}), "ec97efffc3032135");
   EXPECT_EQ(small_hash(L_around_a_box, {"method=consistent"}), "40fa8814df6e0a57");
+}
+
+TEST(GoldenHash, SmallBodiesWithFiniteRotations) {
+  for (int n = 1; n <= 4; ++n) {
+    EXPECT_EQ(small_hash(box_in_an_L, {}, Kinematics::finite, n), "df7f6ecedbc064a9");
+    EXPECT_EQ(small_hash(L_around_a_box, {"method=consistent"}, Kinematics::finite, n), "93a110194e592bf2");
+  }
+  set_threads(1);
 }
 
 /// Watching every step, hardly ever, or on a grid of times changes no bit.

@@ -83,6 +83,13 @@ std::string hexahedra(const std::string& region, double from, double to, const s
       from, to, divisions);
 }
 
+void rotate_finitely(Simulation& sim) {
+  for (Lattice& lattice : sim.model.lattices) {
+    lattice.kinematics = Kinematics::finite;
+    lattice.rotation = Field<9>(lattice.grid.size(), lattice.grid.guard());
+  }
+}
+
 reference::Incremental reference_of(const Case& input, const Simulation& sim) {
   reference::Incremental body(describe(input, sim.model.mesh));
   act_on(body, sim);

@@ -25,6 +25,9 @@ double static_tip(const std::string& name, const std::vector<std::string>& set =
 /// The options that make a region of the beam a block of hexahedra with these divisions.
 std::string hexahedra(const std::string& region, double from, double to, const std::string& divisions);
 
+/// Give all lattices finite rotations. Before the start.
+void rotate_finitely(Simulation& sim);
+
 /// The same body and the same loads, supports and initial motion for the literal algorithm. The mesh is taken
 /// over, the lattice is made anew from its boxes.
 reference::Incremental reference_of(const Case& input, const Simulation& sim);
