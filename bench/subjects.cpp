@@ -5,6 +5,7 @@
 #include "case/read.hpp"
 #include "clock.hpp"
 #include "de/bonds.hpp"
+#include "de/rotation.hpp"
 #include "fe/elements.hpp"
 #include "solver/nodes.hpp"
 
@@ -14,9 +15,10 @@ namespace {
 /// A name without its suffix, which says that contact is watched for.
 constexpr std::string_view watched = "+contact";
 bool is_watched(const std::string& name) { return name.ends_with(watched); }
-std::string material_of(const std::string& name) {
-  return is_watched(name) ? name.substr(0, name.size() - watched.size()) : name;
-}
+/// A suffix that says that rotations are finite.
+constexpr std::string_view turning = "+finite";
+bool is_finite(const std::string& name) { return name.ends_with(turning); }
+std::string material_of(const std::string& name) { return name.substr(0, name.find('+')); }
 
 /// A small block beside the cube, too far to be touched, and contact between all.
 std::string watched_text(int edge) {
@@ -76,6 +78,22 @@ void add_lattice_kernels(Subject& s) {
       {"drift", [&] { drift(lattice.motion, lattice.velocity, 0); }, lattice_drift()}};
 }
 
+void add_finite_lattice_kernels(Subject& s) {
+  Lattice& lattice = s.simulation().model.lattices.front();
+  lattice.kinematics = Kinematics::finite;
+  lattice.rotation = Field<9>(lattice.grid.size(), lattice.grid.guard());
+  s.items = static_cast<double>(lattice.count(site::particle));
+  s.working_set = lattice.grid.size() * (18 * sizeof(double) + sizeof(std::uint32_t));
+  s.kernels = {{"bond forces and kick", [&] { de::bond_forces_and_kick(lattice, de::Kick{}); },
+                finite_bonds_and_kick()},
+               {"drift",
+                [&] {
+                  drift(lattice.motion, lattice.velocity, 0, 3);
+                  de::turn(lattice, 0);
+                },
+                finite_drift()}};
+}
+
 void add_element_kernels(Subject& s) {
   Mesh& mesh = s.simulation().model.mesh;
   s.items = static_cast<double>(mesh.elements.size());
@@ -102,7 +120,9 @@ std::unique_ptr<Subject> make_subject(const std::string& name, int edge) {
   const double begin = now();
   subject->built = build(read_case_text(case_text(name, edge), "benchmark"));
   subject->build_seconds = now() - begin;
-  if (material_of(name) == "lattice")
+  if (material_of(name) == "lattice" && is_finite(name))
+    add_finite_lattice_kernels(*subject);
+  else if (material_of(name) == "lattice")
     add_lattice_kernels(*subject);
   else
     add_element_kernels(*subject);

@@ -83,8 +83,8 @@ GEIST_INLINE void add_bonds(const FiniteView& x, const FiniteMotion<T>& i, std::
       for (int c = 0; c < 3; ++c)
         if (directions[D][c]) S[3 * c + a] = directions[D][c] > 0 ? S[3 * c + a] + g : S[3 * c + a] - g;
     }
-    if constexpr (Law::bends && group(D) == 1)
-      for (int k = 0; k < 9; ++k)
+    if constexpr (Law::bends)
+      for (int k = 0; group(D) == 1 && k < 9; ++k)
         S[k] = fma(law.template column<D>(k / 3), bonds.template keep<D>(j.H[k] - i.H[k]), S[k]);
   };
   [&]<int... D>(std::integer_sequence<int, D...>) __attribute__((always_inline)) {

@@ -113,8 +113,8 @@ GEIST_INLINE void site_force(const MotionView& x, std::size_t s, const std::ptrd
     for (int c = 0; c < 3; ++c) fc[c] = bonds.template keep<D>(fc[c]);
     cross_step<ex, ey, ez>(fc, arm);  // fc × e; the moment is r e × fc
     for (int c = 0; c < 3; ++c) f[c] = f[c] + fc[c], f[3 + c] = f[3 + c] - arm[c];
-    if constexpr (Law::bends && group(D) == 1)
-      for (int c = 3; c < 6; ++c)
+    if constexpr (Law::bends)  // by itself: the lambda is looked into once Law is known, D not yet
+      for (int c = 3; group(D) == 1 && c < 6; ++c)
         f[c] = f[c] + bonds.template keep<D>(law.template turn<D>(c - 3) * (j[c] - i[c]));
   };
   [&]<int... D>(std::integer_sequence<int, D...>) __attribute__((always_inline)) {
