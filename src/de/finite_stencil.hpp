@@ -60,9 +60,9 @@ GEIST_INLINE void relative_displacement(const FiniteMotion<T>& i, const FiniteMo
   }
 }
 
-/// ¼ along (d·p): half of what the spring along m carries, by |m|.
+/// q = ½ along (d·m) = ¼ along (d·p), so that f = shear d + q p and g = r f − q d.
 template <int D, class T, class Law>
-GEIST_INLINE T quarter_pull(const Law& law, const T (&d)[3], const T (&p)[3]) {
+GEIST_INLINE T half_pull(const Law& law, const T (&d)[3], const T (&p)[3]) {
   return 0.25 * law.template along<D>() * fma(d[2], p[2], fma(d[1], p[1], d[0] * p[0]));
 }
 
@@ -75,7 +75,7 @@ GEIST_INLINE void add_bonds(const FiniteView& x, const FiniteMotion<T>& i, std::
     T d[3], p[3];
     const FiniteMotion<T> j = read_motion<T>(x, s + offset[D]);
     relative_displacement<D>(i, j, r, d, p);
-    const T q = quarter_pull<D>(law, d, p);
+    const T q = half_pull<D>(law, d, p);
     for (int a = 0; a < 3; ++a) {
       const T force = fma(q, p[a], law.template shear<D>() * d[a]);
       const T g = bonds.template keep<D>(fma(r, force, -(q * d[a])));
@@ -119,7 +119,7 @@ GEIST_INLINE T bond_energy(const FiniteView& x, std::size_t s, std::ptrdiff_t of
   const FiniteMotion<T> i = read_motion<T>(x, s), j = read_motion<T>(x, s + offset);
   T d[3], p[3];
   relative_displacement<D>(i, j, r, d, p);
-  const T dp = d[0] * p[0] + d[1] * p[1] + d[2] * p[2], q = quarter_pull<D>(law, d, p);
+  const T dp = d[0] * p[0] + d[1] * p[1] + d[2] * p[2], q = half_pull<D>(law, d, p);
   T twice = law.template shear<D>() * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) + q * dp;
   if constexpr (Law::bends && group(D) == 1)
     for (int k = 0; k < 9; ++k)
