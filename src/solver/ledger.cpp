@@ -78,7 +78,8 @@ double lattice_residual(const Lattice& lattice, Imbalance imbalance) {
 }
 
 bool turns_finitely(const Model& model) {
-  return std::any_of(model.lattices.begin(), model.lattices.end(),
+  return model.mesh.kinematics == Kinematics::finite ||
+         std::any_of(model.lattices.begin(), model.lattices.end(),
                      [](const Lattice& l) { return l.kinematics == Kinematics::finite; });
 }
 
