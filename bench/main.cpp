@@ -31,8 +31,8 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--threads", o.threads, "compare one thread with this many (default: all processors)");
   app.add_option("--edges", o.edges, "particles or elements along an edge (40 100; quick: 40)");
   app.add_option("--subjects", o.subjects,
-                 "lattice, one-point, assumed-strain, selective-reduced, full; each also with +contact; "
-                 "hexahedra with +finite");
+                 "lattice, one-point, assumed-strain, selective-reduced, full; each also with "
+                 "+contact, or with +finite");
   app.add_option("--out", o.out, "write FILE.csv and FILE.json")->type_name("FILE");
 }
 

@@ -5,6 +5,7 @@
 #include "case/read.hpp"
 #include "clock.hpp"
 #include "de/bonds.hpp"
+#include "de/rotation.hpp"
 #include "fe/elements.hpp"
 #include "solver/nodes.hpp"
 
@@ -75,6 +76,22 @@ void add_lattice_kernels(Subject& s) {
       {"drift", [&] { drift(lattice.motion, lattice.velocity, 0); }, lattice_drift()}};
 }
 
+void add_finite_lattice_kernels(Subject& s) {
+  Lattice& lattice = s.simulation().model.lattices.front();
+  lattice.kinematics = Kinematics::finite;
+  lattice.rotation = Field<9>(lattice.grid.size(), lattice.grid.guard());
+  s.items = static_cast<double>(lattice.count(site::particle));
+  s.working_set = lattice.grid.size() * (18 * sizeof(double) + sizeof(std::uint32_t));
+  s.kernels = {{"bond forces and kick", [&] { de::bond_forces_and_kick(lattice, de::Kick{}); },
+                finite_bonds_and_kick()},
+               {"drift",
+                [&] {
+                  drift(lattice.motion, lattice.velocity, 0, 3);
+                  de::turn(lattice, 0);
+                },
+                finite_drift()}};
+}
+
 void add_element_kernels(Subject& s) {
   Mesh& mesh = s.simulation().model.mesh;
   s.items = static_cast<double>(mesh.elements.size());
@@ -102,7 +119,9 @@ std::unique_ptr<Subject> make_subject(const std::string& name, int edge) {
   const double begin = now();
   subject->built = build(read_case_text(case_text(name, edge), "benchmark"));
   subject->build_seconds = now() - begin;
-  if (material_of(name) == "lattice")
+  if (material_of(name) == "lattice" && turns(name))
+    add_finite_lattice_kernels(*subject);
+  else if (material_of(name) == "lattice")
     add_lattice_kernels(*subject);
   else
     add_element_kernels(*subject);

@@ -33,7 +33,7 @@ struct Subject {
 };
 
 /// A name that ends in "+contact": another body is near, all may touch, and nothing does. In "+finite":
-/// hexahedra turn with the body.
+/// rotations are finite.
 std::unique_ptr<Subject> make_subject(const std::string& name, int edge);
 
 }  // namespace geist::bench

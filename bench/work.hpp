@@ -17,6 +17,8 @@ struct Work {
 /// By particle.
 Work bonds_and_kick();
 Work lattice_drift();
+Work finite_bonds_and_kick();
+Work finite_drift();
 
 /// By element; a large block has as many nodes as elements.
 Work internal_forces(const std::string& formulation, bool finite);

@@ -127,6 +127,13 @@ Table initial_table() {
           {{false, {"velocity", "spin"}}}};
 }
 
+Key kinematics() {
+  return choice(
+      "kinematics", {"small", "finite"},
+      "Displacements: small, with directions frozen as in the papers; or finite, in axes that turn with "
+      "every hexahedron and every particle: rotations may be any, strains moderate. Statics are small.");
+}
+
 Table analysis_table() {
   return {
       "analysis",
@@ -145,11 +152,9 @@ Table analysis_table() {
               "are at time 0; [[initial]] adds its velocities.")
            .otherwise("\"undeformed\"")
            .when(dynamic),
-       choice("kinematics", {"small", "finite"},
-              "Displacements: small, with directions frozen as in the papers; or finite, where every "
-              "hexahedron's axes turn "
-              "with it: rotations may be any, strains moderate. Hexahedra only, and not with static.")
-           .otherwise("\"small\""),
+       kinematics().otherwise("\"small\"").when({"start", "static"}),
+       kinematics().otherwise("\"small\"").when(dynamic),
+       kinematics().otherwise("\"small\"").when({"type", "dynamic", true}),
        number("duration", "time",
               "Dynamic: the end of the run. Quasi-static: where to give up (without it, "
               "after max_steps).")

@@ -98,14 +98,13 @@ void check_static(Document& document, const View& root, const View& analysis) {
 
 /// What cannot turn yet.
 void check_finite(Document& document, const View& root, const View& analysis) {
-  const bool lattices = std::ranges::any_of(
-      root.named("regions"), [](const View& region) { return region.get<std::string>("type") == "lattice"; });
-  if (lattices)
+  const auto coupling = root.table("coupling");
+  if (coupling && coupling->get<std::string>("rotation") == "none")
     document.report(
-        analysis.place("kinematics"),
-        "'kinematics' = \"finite\" is for cases of hexahedra alone: the bonds of a lattice are made "
-        "for small displacements");
-  else if (analysis.get<std::string>("type") == "static" || analysis.get<std::string>("start") == "static")
+        coupling->place("rotation"),
+        "ghosts that do not turn resist any rotation of the body; use kinematics = \"small\", or let "
+        "them turn");
+  if (analysis.get<std::string>("type") == "static" || analysis.get<std::string>("start") == "static")
     document.report(analysis.place("kinematics"),
                     "equilibrium is solved for with small displacements; with finite ones, type = "
                     "\"quasi-static\" finds it");

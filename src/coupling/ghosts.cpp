@@ -4,6 +4,7 @@
 
 #include "core/parallel.hpp"
 #include "geometry/hex8.hpp"
+#include "geometry/polar.hpp"
 
 namespace geist::coupling {
 namespace {
@@ -32,6 +33,39 @@ Ghost make_ghost(std::size_t site, const Location& found, const Mesh& mesh) {
   return ghost;
 }
 
+/// F = 1 + Σ u_I ⊗ ∇N_I = R U at a ghost.
+void deformation(const Ghost& ghost, const Mesh& mesh, double (&F)[3][3]) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) F[i][j] = i == j ? 1 : 0;
+  for (const GhostNode& I : ghost.nodes) {
+    const Vec3 u = mesh.u.vector(I.node);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) F[i][j] = fma(u[i], I.gradient[j], F[i][j]);
+  }
+}
+
+/// Turn a ghost as its hexahedron turns there. With Rᵀ δR = [w]× and δF = Σ δu_I ⊗ ∇N_I,
+/// (tr U 1 − U) w = axial(Rᵀ δF − δFᵀ R): m_g does the work of R ((K m_g) × ∇N_I) on δu_I, K = (tr U 1 − U)⁻¹
+/// Rᵀ.
+GhostTurn turn_finitely(Lattice& lattice, const Ghost& ghost, const Mesh& mesh) {
+  double F[3][3], R[3][3];
+  deformation(ghost, mesh, F);
+  rotation_of(F, R);
+  Mat3 G{}, turned{};  // tr U 1 − U
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      turned[i][j] = R[i][j];
+      G[i][j] = -(R[0][i] * F[0][j] + R[1][i] * F[1][j] + R[2][i] * F[2][j]);
+      lattice.rotation[3 * j + i][ghost.site] = R[i][j] - (i == j ? 1 : 0);
+    }
+  const double trace = -(G[0].x + G[1].y + G[2].z);
+  for (int i = 0; i < 3; ++i) G[i][i] += trace;
+  const Mat3 inverse_G = inverse(G);
+  Mat3 K{};
+  for (int i = 0; i < 3; ++i) K[i] = turned * inverse_G[i];  // row i of G⁻¹ Rᵀ
+  return {turned, K};
+}
+
 }  // namespace
 
 void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator, const std::vector<bool>& loose,
@@ -49,17 +83,20 @@ void place_ghosts(Lattice& lattice, const Mesh& mesh, const Locator& locator, co
 }
 
 void follow(Lattice& lattice, const Mesh& mesh) {
-  const bool turn = lattice.ghost_rotation == GhostRotation::continuum;
-  const auto follow_one = [&lattice, &mesh, turn](std::size_t g) {
+  const bool turn = lattice.ghost_rotation == GhostRotation::continuum,
+             finite = lattice.kinematics == Kinematics::finite;
+  if (turn && finite) lattice.ghost_turns.resize(lattice.ghosts.size());
+  const auto follow_one = [&lattice, &mesh, turn, finite](std::size_t g) {
     const Ghost& ghost = lattice.ghosts[g];
     Vec3 u, curl;
     for (const auto& [node, N, gradient] : ghost.nodes) {
       const Vec3 u_I = mesh.u.vector(node);
       for (int c = 0; c < 3; ++c) u[c] = fma(N, u_I[c], u[c]);
-      if (turn) curl += cross(gradient, u_I);
+      if (turn && !finite) curl += cross(gradient, u_I);
     }
     lattice.motion.set(ghost.site, u);
-    if (turn) lattice.motion.set(ghost.site, 0.5 * curl, 3);
+    if (turn && !finite) lattice.motion.set(ghost.site, 0.5 * curl, 3);
+    if (turn && finite) lattice.ghost_turns[g] = turn_finitely(lattice, ghost, mesh);
   };
   for_each(lattice.ghosts.size(), follow_one, 1000);
 }
@@ -72,8 +109,8 @@ Reactions::Reactions(const Model& model) {
     for (std::size_t g = 0; g < lattice.ghosts.size(); ++g)
       for (const auto& [node, N, gradient] : lattice.ghosts[g].nodes)
         if (N != 0 || turn)
-          by_node[node].push_back(
-              {static_cast<std::int32_t>(l), lattice.ghost_slot[g], N, turn ? 0.5 * gradient : Vec3{}});
+          by_node[node].push_back({static_cast<std::int32_t>(l), static_cast<std::int32_t>(g), N,
+                                   turn ? 0.5 * gradient : Vec3{}});
   }
   begin_.push_back(0);
   for (const auto& [node, entries] : by_node) {
@@ -88,10 +125,16 @@ void Reactions::add(Model& model) const {
     Vec3 sum = model.mesh.f.vector(nodes_[n]);
     for (std::int32_t k = begin_[n]; k < begin_[n + 1]; ++k) {
       const Entry& entry = entries_[k];
-      const Field<6>& on_listed = model.lattices[entry.lattice].listed_force;
-      const Vec3 force = on_listed.vector(entry.slot), moment = on_listed.vector(entry.slot, 3);
+      const Lattice& lattice = model.lattices[entry.lattice];
+      const std::int32_t slot = lattice.ghost_slot[entry.ghost];
+      const Vec3 force = lattice.listed_force.vector(slot), moment = lattice.listed_force.vector(slot, 3);
       for (int c = 0; c < 3; ++c) sum[c] = fma(entry.N, force[c], sum[c]);
-      sum += cross(moment, entry.half_gradient);
+      if (lattice.ghost_turns.empty()) {
+        sum += cross(moment, entry.half_gradient);
+      } else {
+        const GhostTurn& turn = lattice.ghost_turns[entry.ghost];
+        sum += turn.R * cross(turn.K * moment, 2 * entry.half_gradient);
+      }
     }
     model.mesh.f.set(nodes_[n], sum);
   };

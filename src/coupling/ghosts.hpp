@@ -11,8 +11,9 @@
 //   θ_g = ½ Σ ∇N_I × u_I        f_I += ½ m_g × ∇N_I
 //
 // which adds no force, Σ ∇N_I = 0, and exactly the moment m_g, ½ Σ x_I × (m_g × ∇N_I) = ½ (3 m_g − m_g), as
-// Σ x_I ⊗ ∇N_I = 1. Or it spins by itself ("one-step back", (15)(24)): a degree of freedom of the lattice,
-// which is advanced there.
+// Σ x_I ⊗ ∇N_I = 1. With finite rotations R_g is that of the hexahedron's deformation gradient F = R U at the
+// ghost, and the moment goes back by the derivative of R_g.  Or it spins by itself ("one-step back",
+// (15)(24)): a degree of freedom of the lattice, which is advanced there.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -50,7 +51,7 @@ class Reactions {
 
  private:
   struct Entry {
-    std::int32_t lattice, slot;
+    std::int32_t lattice, ghost;
     double N;
     Vec3 half_gradient;  ///< ½ ∇N_I, or zero
   };

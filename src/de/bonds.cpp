@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/parallel.hpp"
+#include "de/finite_stencil.hpp"
 #include "de/stencil.hpp"
 
 namespace geist::de {
@@ -44,10 +45,11 @@ struct Consistent {
   }
 };
 
-/// What the row kernel reads and writes, as plain pointers and numbers.
-template <class Method>
+/// What the row kernel reads and writes, as plain pointers and numbers. View is that of small or of finite
+/// rotations.
+template <class Method, class View>
 struct RowKernel {
-  MotionView motion;
+  View motion;
   double* velocity[6];
   double* listed_force[6];
   const std::uint32_t* word;
@@ -58,7 +60,7 @@ struct RowKernel {
   double r;
   Kick kick;
 
-  explicit RowKernel(const Method& bonds) : method(bonds) {}
+  RowKernel(const Method& bonds, const View& view) : motion(view), method(bonds) {}
 
   struct Accumulated {
     Pack across = {}, after = {}, spin_across = {}, spin_after = {};
@@ -125,10 +127,10 @@ struct RowKernel {
   }
 };
 
-template <class Method>
-RowKernel<Method> row_kernel(Lattice& lattice, const Kick& kick) {
-  RowKernel<Method> k{Method(lattice)};
-  k.motion = view(lattice.motion);
+template <class Method, class View>
+RowKernel<Method, View> row_kernel(const Method& method, const View& motion, Lattice& lattice,
+                                   const Kick& kick) {
+  RowKernel<Method, View> k(method, motion);
   for (int c = 0; c < 6; ++c) {
     k.velocity[c] = lattice.velocity[c];
     k.listed_force[c] = lattice.listed_force[c];
@@ -143,16 +145,16 @@ RowKernel<Method> row_kernel(Lattice& lattice, const Kick& kick) {
 }
 
 /// Half the energy of every bond of the eight sites at s.
-template <class Method>
+template <class Method, class View>
 struct SiteEnergies {
-  MotionView motion;
+  View motion;
   const std::uint32_t* word;
   std::ptrdiff_t offset[18];
   Method method;
   double r;
 
-  explicit SiteEnergies(const Lattice& lattice)
-      : motion(view(lattice.motion)), word(lattice.word.data()), method(lattice), r(lattice.radius()) {
+  SiteEnergies(const Method& bonds, const View& view, const Lattice& lattice)
+      : motion(view), word(lattice.word.data()), method(bonds), r(lattice.radius()) {
     for (int d = 0; d < 18; ++d) offset[d] = lattice.grid.offset(d);
   }
 
@@ -176,12 +178,10 @@ struct SiteEnergies {
   }
 };
 
-template <class Method>
-KickSums forces_and_kick(Lattice& lattice, const Kick& kick) {
-  const std::size_t rows = lattice.grid.rows();
-  lattice.row_sums.resize(4 * rows);
-  const auto kernel = row_kernel<Method>(lattice, kick);
-  double* const sums = lattice.row_sums.data();
+template <class Kernel>
+KickSums forces_and_kick(const Kernel& kernel, std::vector<double>& row_sums, std::size_t rows) {
+  row_sums.resize(4 * rows);
+  double* const sums = row_sums.data();
   for_each(
       rows,
       [=](std::size_t row) {
@@ -197,9 +197,8 @@ KickSums forces_and_kick(Lattice& lattice, const Kick& kick) {
 }
 
 /// Energy of the bonds between two ghosts.
-template <class Method>
-double energy_between_ghosts(const Lattice& lattice) {
-  const SiteEnergies<Method> energy(lattice);
+template <class Energy>
+double energy_between_ghosts(const Energy& energy, const Lattice& lattice) {
   double twice = 0;
   for (const Ghost& ghost : lattice.ghosts) [&]<int... D>(std::integer_sequence<int, D...>) {
       ((twice += energy.template between_ghosts<D>(lattice, ghost.site)), ...);
@@ -208,11 +207,10 @@ double energy_between_ghosts(const Lattice& lattice) {
   return 0.5 * twice;
 }
 
-template <class Method>
-BondEnergies energies_by(const Lattice& lattice) {
+template <class Energy>
+BondEnergies add_up(const Energy& energy, const Lattice& lattice) {
   // A bond of a particle and a ghost has half of its energy at either; between two ghosts all of it is at
   // ghosts, any other's is at particles.
-  const SiteEnergies<Method> energy(lattice);
   BondEnergies total = sum<BondEnergies>(lattice.grid.size() / lanes, [energy](std::size_t pack) {
     const Pack e = energy.at(lanes * pack);
     BondEnergies sums;
@@ -223,26 +221,26 @@ BondEnergies energies_by(const Lattice& lattice) {
     }
     return sums;
   });
-  const double between_ghosts = energy_between_ghosts<Method>(lattice);
+  const double between_ghosts = energy_between_ghosts(energy, lattice);
   return total += {between_ghosts, -between_ghosts};
 }
 
-template <class Method>
-std::vector<double> site_energies_by(const Lattice& lattice) {
-  std::vector<double> energies(lattice.grid.size());
-  const SiteEnergies<Method> energy(lattice);
-  const auto store_pack = [energy, out = energies.data()](std::size_t pack) {
-    store(out + lanes * pack, energy.at(lanes * pack));
+/// f(method, view) with those of the lattice.
+template <class F>
+auto with_kinematics(const Lattice& lattice, F f) {
+  const auto with_view = [&](const auto& method) {
+    return lattice.kinematics == Kinematics::finite ? f(method, finite_view(lattice))
+                                                    : f(method, view(lattice.motion));
   };
-  for_each(lattice.grid.size() / lanes, store_pack, 128);
-  return energies;
+  return lattice.consistent() ? with_view(Consistent(lattice)) : with_view(Published(lattice));
 }
 
 }  // namespace
 
 KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick) {
-  return lattice.consistent() ? forces_and_kick<Consistent>(lattice, kick)
-                              : forces_and_kick<Published>(lattice, kick);
+  return with_kinematics(lattice, [&](const auto& method, const auto& motion) {
+    return forces_and_kick(row_kernel(method, motion, lattice, kick), lattice.row_sums, lattice.grid.rows());
+  });
 }
 
 KickSums kick_listed(Lattice& lattice, const Kick& kick) {
@@ -263,11 +261,21 @@ KickSums kick_listed(Lattice& lattice, const Kick& kick) {
 }
 
 BondEnergies energies(const Lattice& lattice) {
-  return lattice.consistent() ? energies_by<Consistent>(lattice) : energies_by<Published>(lattice);
+  return with_kinematics(lattice, [&](const auto& method, const auto& motion) {
+    return add_up(SiteEnergies(method, motion, lattice), lattice);
+  });
 }
 
 std::vector<double> site_energies(const Lattice& lattice) {
-  return lattice.consistent() ? site_energies_by<Consistent>(lattice) : site_energies_by<Published>(lattice);
+  return with_kinematics(lattice, [&](const auto& method, const auto& motion) {
+    const SiteEnergies energy(method, motion, lattice);
+    std::vector<double> energies(lattice.grid.size());
+    const auto store_pack = [energy, out = energies.data()](std::size_t pack) {
+      store(out + lanes * pack, energy.at(lanes * pack));
+    };
+    for_each(energies.size() / lanes, store_pack, 128);
+    return energies;
+  });
 }
 
 std::size_t bond_count(const Lattice& lattice) {

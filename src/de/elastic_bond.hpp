@@ -33,6 +33,12 @@ GEIST_INLINE void springs(const T (&d)[3], K shear, K along_e, T (&f)[3]) {
   for (int c = 0; c < 3; ++c) f[c] = e[c] == 0 ? shear * d[c] : fma(shear, d[c], e[c] > 0 ? along : -along);
 }
 
+/// Force on i of a bond in direction D under a law, at relative displacement d = d_j − d_i, into f.
+template <int D, class T, class Law>
+GEIST_INLINE void bond_force(const Law& law, const T (&d)[3], T (&f)[3]) {
+  springs<D>(d, law.template shear<D>(), law.template along<D>(), f);
+}
+
 /// Stiffnesses (force/length) of every bond of a published lattice.
 struct ElasticBond {
   static constexpr bool bends = false;
@@ -43,10 +49,14 @@ struct ElasticBond {
     return {k_n, k_n * (1 - 4 * nu) / (1 + nu)};
   }
 
-  /// Force on i of a bond in direction D at relative displacement d = d_j − d_i, into f.
-  template <int D, class T>
-  GEIST_INLINE void force(const T (&d)[3], T (&f)[3]) const {
-    springs<D>(d, k_s, (k_n - k_s) / group(D), f);
+  /// Of a bond in direction D, as BondClass has them.
+  template <int D>
+  GEIST_INLINE double shear() const {
+    return k_s;
+  }
+  template <int D>
+  GEIST_INLINE double along() const {
+    return (k_n - k_s) / group(D);
   }
 };
 
@@ -69,6 +79,13 @@ struct Bending {
   GEIST_INLINE double turn(int c) const {
     return directions[D][static_cast<std::size_t>(c)] != 0 ? twist : bend;
   }
+
+  /// w_c of the energy ½ Σ w_c |(R_j − R_i) e_c|² of finite rotations, by column c of R. A small rotation φ
+  /// moves the columns by φ × e_c, so that this is ½ k_b |φ across|² + ½ k_t |φ along|².
+  template <int D>
+  GEIST_INLINE double column(int c) const {
+    return directions[D][static_cast<std::size_t>(c)] != 0 ? k_b - 0.5 * k_t : 0.5 * k_t;
+  }
 };
 
 /// Bonds of the endless consistent lattice.
@@ -80,9 +97,13 @@ struct EndlessBond : Bending {
     return {Bending::from(m, r), {2 * r * (2 * mu - lambda), 4 * r * (mu - lambda)}, {2 * r * lambda, 0}};
   }
   const ElasticBond& of(int group) const { return group == 1 ? near : far; }
-  template <int D, class T>
-  GEIST_INLINE void force(const T (&d)[3], T (&f)[3]) const {
-    of(group(D)).template force<D>(d, f);
+  template <int D>
+  GEIST_INLINE double shear() const {
+    return of(group(D)).template shear<D>();
+  }
+  template <int D>
+  GEIST_INLINE double along() const {
+    return of(group(D)).template along<D>();
   }
 };
 
@@ -102,6 +123,10 @@ struct ClassBonds : Bending {
     return Bending::turn<D>(c) * gather<D>(&BondClass::bends);
   }
   template <int D>
+  GEIST_INLINE T column(int c) const {
+    return Bending::column<D>(c) * gather<D>(&BondClass::bends);
+  }
+  template <int D>
   GEIST_INLINE T gather(const std::array<double, 18> BondClass::*member) const {
     if constexpr (count == 1) {
       return (of[0]->*member)[D];
@@ -112,8 +137,12 @@ struct ClassBonds : Bending {
     }
   }
   template <int D>
-  GEIST_INLINE void force(const T (&d)[3], T (&f)[3]) const {
-    springs<D>(d, gather<D>(&BondClass::shear), gather<D>(&BondClass::along), f);
+  GEIST_INLINE T shear() const {
+    return gather<D>(&BondClass::shear);
+  }
+  template <int D>
+  GEIST_INLINE T along() const {
+    return gather<D>(&BondClass::along);
   }
 };
 

@@ -109,12 +109,12 @@ GEIST_INLINE void site_force(const MotionView& x, std::size_t s, const std::ptrd
     T j[6], d[3], fc[3], arm[3];
     for (int c = 0; c < 6; ++c) j[c] = read<T>(x.c[c] + s + offset[D]);
     relative_displacement<D>(i, j, r, d);
-    law.template force<D>(d, fc);
+    bond_force<D>(law, d, fc);
     for (int c = 0; c < 3; ++c) fc[c] = bonds.template keep<D>(fc[c]);
     cross_step<ex, ey, ez>(fc, arm);  // fc × e; the moment is r e × fc
     for (int c = 0; c < 3; ++c) f[c] = f[c] + fc[c], f[3 + c] = f[3 + c] - arm[c];
-    if constexpr (Law::bends && group(D) == 1)
-      for (int c = 3; c < 6; ++c)
+    if constexpr (Law::bends)  // by itself: the lambda is looked into once Law is known, D not yet
+      for (int c = 3; group(D) == 1 && c < 6; ++c)
         f[c] = f[c] + bonds.template keep<D>(law.template turn<D>(c - 3) * (j[c] - i[c]));
   };
   [&]<int... D>(std::integer_sequence<int, D...>) __attribute__((always_inline)) {
@@ -131,7 +131,7 @@ GEIST_INLINE T bond_energy(const MotionView& x, std::size_t s, std::ptrdiff_t of
   T i[6], j[6], d[3], f[3];
   for (int c = 0; c < 6; ++c) i[c] = read<T>(x.c[c] + s), j[c] = read<T>(x.c[c] + s + offset);
   relative_displacement<D>(i, j, r, d);
-  law.template force<D>(d, f);
+  bond_force<D>(law, d, f);
   T twice = f[0] * d[0] + f[1] * d[1] + f[2] * d[2];
   if constexpr (Law::bends && group(D) == 1)
     for (int c = 3; c < 6; ++c)

@@ -42,7 +42,7 @@ Matrix6 bond_stiffness(const Law& law, double r) {
   for (int c = 0; c < 3; ++c) {
     double d[3] = {}, f[3];
     d[c] = 1;
-    law.template force<D>(d, f);
+    bond_force<D>(law, d, f);
     K.col(c).head<3>() = Eigen::Vector3d(f[0], f[1], f[2]);
     if constexpr (Law::bends && group(D) == 1) K(3 + c, 3 + c) = r * law.template turn<D>(c);
   }

@@ -29,7 +29,7 @@
 // spin, and f · v is what f̂ dissipates.
 #pragma once
 #include "fe/full.hpp"
-#include "fe/polar.hpp"
+#include "geometry/polar.hpp"
 
 namespace geist::fe {
 

@@ -17,7 +17,7 @@
 //
 // It is exact on every element with plane or twisted faces, and equal to 2 × 2 × 2 Gauss integration.
 #pragma once
-#include "core/pack.hpp"
+#include "core/triple.hpp"
 
 namespace geist::fe {
 
@@ -66,19 +66,6 @@ GEIST_INLINE void to_corners(const Modes<T>& F, Corners<T>& f) {
     f[0][i] = -s0 - d0, f[1][i] = d0 - s0, f[2][i] = s1 + d1, f[3][i] = s1 - d1;
     f[4][i] = s2 - d2, f[5][i] = s2 + d2, f[6][i] = s3 + d3, f[7][i] = s3 - d3;
   }
-}
-
-/// out = a × b.
-template <class T>
-GEIST_INLINE void cross(const T* a, const T* b, T* out) {
-  out[0] = fma(a[1], b[2], -(a[2] * b[1]));
-  out[1] = fma(a[2], b[0], -(a[0] * b[2]));
-  out[2] = fma(a[0], b[1], -(a[1] * b[0]));
-}
-
-template <class T>
-GEIST_INLINE T dot(const T* a, const T* b) {
-  return fma(a[2], b[2], fma(a[1], b[1], a[0] * b[0]));
 }
 
 /// Volume V and its derivatives g_k with respect to the modes (see above); g[0] and g[7] are not set.

@@ -29,8 +29,10 @@ std::string state_hash(const Model& model) {
     for (int c = 0; c < 3; ++c) fnv.add(model.mesh.u[c][i]), fnv.add(model.mesh.v[c][i]);
   for (const Lattice& lattice : model.lattices)
     for (std::size_t s = 0; s < lattice.grid.size(); ++s)
-      if (lattice.word[s])
+      if (lattice.word[s]) {
         for (int c = 0; c < 6; ++c) fnv.add(lattice.motion[c][s]), fnv.add(lattice.velocity[c][s]);
+        for (int c = 0; lattice.rotation.size() > 0 && c < 9; ++c) fnv.add(lattice.rotation[c][s]);
+      }
   return fnv.hex();
 }
 

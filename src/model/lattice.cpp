@@ -13,6 +13,7 @@ void finish(Lattice& lattice) {
   lattice.motion = Field<6>(n, guard);
   lattice.velocity = Field<6>(n, guard);
   lattice.velocity_before = Field<6>(n, guard);
+  if (lattice.kinematics == Kinematics::finite) lattice.rotation = Field<9>(n, guard);
 }
 
 void connect(Lattice& lattice) {

@@ -104,6 +104,11 @@ struct Ghost {
   std::vector<GhostNode> nodes = {};
 };
 
+/// How a ghost that turns with the continuum answers a moment m_g: the force on node I is R ((K m_g) × ∇N_I).
+struct GhostTurn {
+  Mat3 R, K;
+};
+
 /// How ghosts turn: not at all; by themselves ("one-step-back", (15)(24)), a degree of freedom of the
 /// lattice; or with the continuum, θ_g = ½ curl u.
 enum class GhostRotation { none, own, continuum };
@@ -141,6 +146,9 @@ struct Lattice {
   // ω.
   Field<6> motion, velocity;
   Field<6> velocity_before;  ///< half a step before motion's time; valid on observed steps only
+  // Finite rotations only, in place of θ, which stays 0: R − I column by column. Component 3c + a is the part
+  // along axis a of what column c, the direction that the grid's axis c has turned to, differs from e_c.
+  Field<9> rotation;
 
   // Sites whose force the lattice kernel hands over instead of advancing them (ghosts; loaded or supported
   // particles), in ascending order, and that force and moment. listed_begin[row] .. listed_begin[row + 1].
@@ -154,6 +162,7 @@ struct Lattice {
 
   std::vector<Ghost> ghosts;  ///< in order of sites
   GhostRotation ghost_rotation = GhostRotation::own;
+  std::vector<GhostTurn> ghost_turns;    ///< of the present displacement, where rotations are finite
   std::vector<std::int32_t> ghost_slot;  ///< ghost g's place in listed
 
   double radius() const { return grid.pitch / 2; }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "de/bonds.hpp"
+#include "de/rotation.hpp"
 #include "fe/elements.hpp"
 
 namespace geist::output {
@@ -80,9 +81,18 @@ Values site_vectors(const Model& model, std::uint32_t flag, Field<6> Lattice::*f
   return values;
 }
 
-template <std::uint32_t flag, int first>
-Values motion(const Model& model) {
-  return site_vectors(model, flag, &Lattice::motion, first);
+template <std::uint32_t flag>
+Values site_displacements(const Model& model) {
+  return site_vectors(model, flag, &Lattice::motion, 0);
+}
+template <std::uint32_t flag>
+Values rotations(const Model& model) {
+  Values values;
+  visit_sites(model, flag, [&](const Lattice& lattice, std::size_t, std::size_t s) {
+    const Vec3 theta = de::rotation_vector(lattice, s);
+    values.insert(values.end(), {theta.x, theta.y, theta.z});
+  });
+  return values;
 }
 template <std::uint32_t flag, int first>
 Values velocity_after(const Model& model) {
@@ -175,8 +185,8 @@ constexpr FieldInfo list[] = {
     {"von_mises",        hexahedra, 1, dim::stress,       single,  yes, no,  von_mises_stresses},
     {"region",           hexahedra, 1, dim::none,         integer, yes, no,  hexahedron_regions},
 
-    {"displacement",     particles, 3, dim::length,       full,    yes, yes, motion<p, 0>},
-    {"rotation",         particles, 3, dim::angle,        full,    yes, yes, motion<p, 3>},
+    {"displacement",     particles, 3, dim::length,       full,    yes, yes, site_displacements<p>},
+    {"rotation",         particles, 3, dim::angle,        full,    yes, yes, rotations<p>},
     {"velocity",         particles, 3, dim::velocity,     single,  yes, no,  velocity_now<p, 0>},
     {"spin",             particles, 3, dim::spin,         single,  yes, no,  velocity_now<p, 3>},
     {"velocity_after",   particles, 3, dim::velocity,     full,    no,  yes, velocity_after<p, 0>},
@@ -187,8 +197,8 @@ constexpr FieldInfo list[] = {
     {"contact_force",    particles, 3, dim::force,        single,  yes, no,  particle_contact_forces},
     {"region",           particles, 1, dim::none,         integer, yes, no,  lattice_regions<p>},
 
-    {"displacement",     ghosts,    3, dim::length,       full,    yes, no,  motion<g, 0>},
-    {"rotation",         ghosts,    3, dim::angle,        full,    yes, yes, motion<g, 3>},
+    {"displacement",     ghosts,    3, dim::length,       full,    yes, no,  site_displacements<g>},
+    {"rotation",         ghosts,    3, dim::angle,        full,    yes, yes, rotations<g>},
     {"spin_after",       ghosts,    3, dim::spin,         full,    no,  yes, velocity_after<g, 3>},
     {"radius",           ghosts,    1, dim::length,       full,    yes, no,  radii<g>},
     {"hexahedron",       ghosts,    1, dim::none,         integer, yes, no,  ghost_hexahedra},

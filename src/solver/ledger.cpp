@@ -77,12 +77,18 @@ double lattice_residual(const Lattice& lattice, Imbalance imbalance) {
   return squares;
 }
 
+bool turns_finitely(const Model& model) {
+  return model.mesh.kinematics == Kinematics::finite ||
+         std::any_of(model.lattices.begin(), model.lattices.end(),
+                     [](const Lattice& l) { return l.kinematics == Kinematics::finite; });
+}
+
 }  // namespace
 
 Ledger Simulation::ledger() {
   const auto timing = timers.time(Phase::observe);
   const Mesh& mesh = model.mesh;
-  const bool present = !contacts.empty() || mesh.kinematics == Kinematics::finite;
+  const bool present = !contacts.empty() || turns_finitely(model);
   Share all =
       sum<Share>(mesh.nodes(), [&mesh, present](std::size_t i) { return node_share(mesh, i, present); });
   const fe::Energies elements = fe::energies(mesh);

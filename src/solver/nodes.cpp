@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "core/parallel.hpp"
 
@@ -38,22 +39,22 @@ de::KickSums kick_nodes(Mesh& mesh, const de::Kick& kick) {
 }
 
 template <int N>
-void drift(Field<N>& u, const Field<N>& v, double dt) {
+void drift(Field<N>& u, const Field<N>& v, double dt, int components) {
   constexpr std::size_t block = 1024;
   const std::size_t n = u.size();
   struct Components {
     double* u;
     const double* v;
   };
-  std::array<Components, N> components;
-  for (int c = 0; c < N; ++c) components[c] = {u[c], v[c]};
+  std::array<Components, N> all;
+  for (int c = 0; c < N; ++c) all[c] = {u[c], v[c]};
   const auto drift_block = [=](std::size_t b) {
-    for (const auto [x, y] : components)
+    for (const auto [x, y] : std::span(all).first(components))
       for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i) x[i] = fma(dt, y[i], x[i]);
   };
   for_each((n + block - 1) / block, drift_block, 4);
 }
-template void drift<3>(Field<3>&, const Field<3>&, double);
-template void drift<6>(Field<6>&, const Field<6>&, double);
+template void drift<3>(Field<3>&, const Field<3>&, double, int);
+template void drift<6>(Field<6>&, const Field<6>&, double, int);
 
 }  // namespace geist

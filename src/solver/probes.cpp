@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "de/rotation.hpp"
+
 namespace geist {
 namespace {
 
@@ -16,7 +18,7 @@ Vec3 at_node(const Mesh& mesh, Probe::Quantity quantity, std::int32_t node) {
 Vec3 at_particle(const Lattice& lattice, Probe::Quantity quantity, std::size_t s) {
   if (quantity == Probe::Quantity::velocity)
     return 0.5 * (lattice.velocity_before.vector(s) + lattice.velocity.vector(s));
-  return lattice.motion.vector(s, quantity == Probe::Quantity::rotation ? 3 : 0);
+  return quantity == Probe::Quantity::rotation ? de::rotation_vector(lattice, s) : lattice.motion.vector(s);
 }
 
 double reaction(const Probe& probe, const Simulation& sim) {

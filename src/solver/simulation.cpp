@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "de/rotation.hpp"
 #include "fe/elements.hpp"
 #include "solver/nodes.hpp"
 
@@ -22,6 +23,13 @@ de::Kick make_kick(double alpha, double dt, Vec3 gravity) {
 de::Kick for_lattice(de::Kick kick, const Lattice& lattice) {
   kick.per_mass /= lattice.mass, kick.per_inertia /= lattice.inertia;
   return kick;
+}
+
+/// Finite rotations do not add up like vectors: R ← exp(Δt ω×) R instead.
+void drift(Lattice& lattice, double dt) {
+  const bool finite = lattice.kinematics == Kinematics::finite;
+  drift(lattice.motion, lattice.velocity, dt, finite ? 3 : 6);
+  if (finite) de::turn(lattice, dt);
 }
 
 template <int N>
@@ -56,7 +64,7 @@ void Simulation::step(bool observe) {
   {
     const auto timing = timers.time(Phase::drift);  // u^{n+1} = u^n + Δt v^{n+1/2}
     drift(model.mesh.u, model.mesh.v, dt);
-    for (Lattice& lattice : model.lattices) drift(lattice.motion, lattice.velocity, dt);
+    for (Lattice& lattice : model.lattices) drift(lattice, dt);
     model.time = static_cast<double>(++model.step) * dt;
   }
   if (observe) keep_velocities();

@@ -412,12 +412,6 @@ constexpr Malformed rules[] = {
      36,
      14,
      {"'kinematics' must be \"small\" or \"finite\", not \"large\""}},
-    {"FiniteLattice",
-     "1e-6",
-     "1e-6\nkinematics = \"finite\"",
-     36,
-     14,
-     {"'kinematics' = \"finite\" is for cases of hexahedra alone"}},
     {"FiniteStatic",
      "",
      "units = { length = \"mm\", mass = \"g\", time = \"ms\" }\n"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "de/assembly.hpp"
+
 namespace geist::de::testing {
 namespace {
 
@@ -66,6 +68,49 @@ Lattice random_lattice(const std::array<int, 3>& n, int seed) {
 
 void move_at_random(Lattice& lattice, int seed) { fill_at_random(lattice, lattice.motion, seed); }
 void push_at_random(Lattice& lattice, int seed) { fill_at_random(lattice, lattice.velocity, seed); }
+
+Mat3 operator*(const Mat3& a, const Mat3& b) {
+  Mat3 product;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) product[i] += a[i][k] * b[k];
+  return product;
+}
+
+Mat3 rotation_by(Vec3 theta) {
+  const double angle = norm(theta);
+  Mat3 R{{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}};
+  if (angle == 0) return R;
+  const Vec3 n = (1 / angle) * theta;
+  const Mat3 K{{Vec3{0, -n.z, n.y}, Vec3{n.z, 0, -n.x}, Vec3{-n.y, n.x, 0}}}, K2 = K * K;
+  for (std::size_t i = 0; i < 3; ++i) R[i] += std::sin(angle) * K[i] + (1 - std::cos(angle)) * K2[i];
+  return R;
+}
+
+Lattice finite(Lattice lattice, bool consistent) {
+  if (consistent) assemble(lattice);
+  lattice.kinematics = Kinematics::finite;
+  finish(lattice);
+  return lattice;
+}
+
+void set_rotation(Lattice& lattice, std::size_t s, const Mat3& R) {
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t a = 0; a < 3; ++a)
+      lattice.rotation[static_cast<int>(3 * c + a)][s] = R[a][c] - (a == c ? 1 : 0);
+}
+
+void turn_at_random(Lattice& lattice, int seed, double amount) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto vector = [&] { return Vec3{number(random), number(random), number(random)}; };
+  const Mat3 all = rotation_by(2.0 * vector());
+  for (std::size_t s = 0; s < lattice.grid.size(); ++s) {
+    if (!lattice.word[s]) continue;
+    const Vec3 X = lattice.grid.centre(s), u = amount * lattice.radius() * vector();
+    lattice.motion.set(s, all * (X + u) - X);
+    set_rotation(lattice, s, all * rotation_by(amount * vector()));
+  }
+}
 
 double Loads6::largest() const {
   double most = 0;

@@ -30,6 +30,17 @@ void move_at_random(Lattice& lattice, int seed);
 /// The same for velocities.
 void push_at_random(Lattice& lattice, int seed);
 
+/// Rotation by that vector (Rodrigues' formula).
+Mat3 rotation_by(Vec3 theta);
+Mat3 operator*(const Mat3& a, const Mat3& b);
+
+/// The same lattice with finite rotations, consistent or published, at rest.
+Lattice finite(Lattice lattice, bool consistent);
+void set_rotation(Lattice& lattice, std::size_t s, const Mat3& R);
+
+/// Displacements of up to `amount` times r, rotations of up to `amount`, beside one that all share.
+void turn_at_random(Lattice& lattice, int seed, double amount);
+
 /// By site: force and moment.
 struct Loads6 {
   std::vector<Vec3> force, moment;

@@ -91,6 +91,20 @@ TEST_P(GoldenHashByThreads, IsTheSameForFiniteRotations) {
   EXPECT_EQ(small_hash(spinning_row, {}, GetParam()), "8c3a3f056632edf0");
 }
 
+/// Coupled and published; a consistent L of particles alone.
+TEST(GoldenHash, SmallBodiesWithFiniteRotations) {
+  const std::vector<std::string> alone{"method=consistent",
+                                       "regions={around={type=\"lattice\",material=\"polymer\",radius=0.1,"
+                                       "boxes=[[[1,0.2,0],[1.6,1.6,1]],[[0.2,1,0],[1.6,1.6,1]]]}}",
+                                       "initial=[{velocity=[3,0,-1],spin=[2,-5,9]}]",
+                                       "analysis.kinematics=finite"};
+  for (int n = 1; n <= 4; ++n) {
+    EXPECT_EQ(small_hash(box_in_an_L, {"analysis.kinematics=finite"}, n), "4dd4403ff00ee572");
+    EXPECT_EQ(small_hash(L_around_a_box, alone, n), "f020d46b0596ddfa");
+  }
+  set_threads(1);
+}
+
 /// Watching every step, hardly ever, or on a grid of times changes no bit.
 TEST(GoldenHash, ObserversChangeNothing) {
   EXPECT_EQ(hash_of("beam", {.check_every = 1}), golden.at("beam"));

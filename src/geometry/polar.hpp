@@ -10,9 +10,9 @@
 #pragma once
 #include <limits>
 
-#include "fe/modes.hpp"
+#include "core/triple.hpp"
 
-namespace geist::fe {
+namespace geist {
 
 /// Any lane of a mask?
 GEIST_INLINE bool any(bool a) { return a; }
@@ -55,4 +55,4 @@ GEIST_INLINE void rotation_of(const T (&F)[3][3], T (&R)[3][3]) {
   }
 }
 
-}  // namespace geist::fe
+}  // namespace geist
