@@ -56,7 +56,7 @@ def main() -> int:
     wrong = [line for study, _, claims, checks in judged for line in complaints(study, claims, checks)]
     for line in wrong:
         print(f"validate: {line}", file=sys.stderr)
-    print(f"validate: {len(every)} runs, {'all as known' if not wrong else f'{len(wrong)} wrong'}; {folder}/README.md")
+    print(f"validate: {len(every)} runs, {'all as known' if not wrong else f'{len(wrong)} wrong'}; see {folder}")
     return 1 if wrong else 0
 
 

@@ -15,7 +15,7 @@ def step_frequency(W: float, dt: float) -> float:
 
 
 def true_frequency(f: float, dt: float) -> float:
-    return float(np.sin(np.pi * f * dt) / (np.pi * dt))
+    return float(np.sin(np.pi * f * dt) / (np.pi * dt)) if dt else f
 
 
 def peaks(time: np.ndarray, signal: np.ndarray, dt: float, low: float, high: float) -> list[tuple[float, float]]:

@@ -171,7 +171,7 @@ STUDY = Study(
     findings="""## What was found, and what is left
 
 With hexahedra that are exact in bending (`assumed-strain`) the consistent coupled beam is a tenth of the published one's
-distance from the converged deflection, at any radius, and comes nearer with the second power of r. What is left at r = 0.25 mm
+distance from the converged deflection, at any radius, and comes nearer with nearly the second power of r. What is left at r = 0.25 mm
 is the lattice's: four layers of particles are by themselves too soft, over the 6 of 20 mm that they fill.
 
 With selective-reduced hexahedra the lattice's softness and the hexahedra's own stiffness have opposite signs; the smaller the

@@ -196,7 +196,7 @@ def draw(results: Results) -> Figure:
     for panel, ratio in zip(axes, shown):
         draw_panel(panel, results, ratio)
         label(panel, "λ / h", "returned amplitude [%]" if panel is axes[0] else "", f"h = {ratio} r")
-    axes[0].legend(loc="lower left", fontsize=7)
+    axes[min(1, len(shown) - 1)].legend(loc="lower left", fontsize=7)
     return figure
 
 
