@@ -112,14 +112,13 @@ def pressure(h: float, r: float, method: str) -> tuple[Interface, Chain]:
 
 def shear(h: float, r: float) -> tuple[Interface, Chain]:
     """The consistent lattice in a shear wave (E 2, G 1, nu 0), a sheet of two layers with free faces: displacements u
-    across and rotations t. By a particle, with bonds in the sheet and across it taken together: along the wave and across
-    it 1.6 E r each, half of the diagonals in the sheet 0.2 E r each; bending E (2r)^3/12; a cube's inertia."""
+    across and rotations t. With nu 0 diagonals carry nothing, and a particle's bonds in the sheet, along the wave and across
+    it, have 2 E r (E r of cells and E r of the skin), as inside a body; they bend with E (2r)^3/12. A cube's inertia."""
     E, area = 2.0, 4 * r * r
-    along, across, diagonal, bending = 1.6 * E * r, 1.6 * E * r, 0.2 * E * r, E * 8 * r**3 / 12
+    along, across, bending = 2 * E * r, 2 * E * r, E * 8 * r**3 / 12
 
     def pair(total: int, u_i: np.ndarray, t_i: np.ndarray, u_j: np.ndarray, t_j: np.ndarray) -> np.ndarray:
-        slope, turn = u_j - u_i - r * (t_i + t_j), r * (t_i + t_j)
-        return springs(total, (along + 2 * diagonal, slope), (2 * diagonal, turn), (bending, t_j - t_i)) / area
+        return springs(total, (along, u_j - u_i - r * (t_i + t_j)), (bending, t_j - t_i)) / area
 
     e = np.eye(4)
     K = pair(4, *e)
