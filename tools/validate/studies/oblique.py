@@ -205,6 +205,6 @@ reciprocity.""",
     findings="""## What was found, and what is left
 
 At an angle the interface returns what it does at normal incidence, as much as a mesh that jumps, and as steeply less for longer
-waves. Half of it or more comes back as the other kind of wave, in the lattice as in the mesh.
+waves. A good part comes back as the other kind of wave, in the lattice as in the mesh.
 """,
 )
