@@ -12,9 +12,10 @@ from unittest import mock
 import numpy as np
 
 from tools.validate import __main__ as command
-from tools.validate import run
+from tools.validate import chains, run
 from tools.validate.model import Band, Check, Claim
 from tools.validate.results import read_vtu
+from tools.validate.spectra import peaks
 
 
 def vtu(arrays: list[bytes], compressed: bool) -> bytes:
@@ -46,6 +47,32 @@ class ReadsFields(unittest.TestCase):
                 grid = read_vtu(path)
                 np.testing.assert_array_equal(grid.points, points)
                 np.testing.assert_array_equal(grid.data["radius"], radius)
+
+
+class SolvesChains(unittest.TestCase):
+    """Returned amplitudes in per cent, solved by another program."""
+
+    def test_pressure(self) -> None:
+        lengths = (5, 10, 20, 40)
+        for parts, known in ((chains.pressure(1, 0.1, "published"), (6.8, 2.8, 1.4, 0.71)),
+                             (chains.pressure(1, 0.2, "consistent"), (14.39, 2.38, 0.54, 0.13)),
+                             (chains.pressure(1, 0.5, "consistent"), (28.1, 1.44, 0.15, 0.02)),
+                             (chains.all_hexahedra(1, 0.4), (10.88, 2.20, 0.53, 0.13))):
+            for length, percent in zip(lengths, known):
+                self.assertAlmostEqual(100 * chains.reflection(2 * math.pi / length, *parts), percent, delta=0.06)
+
+    def test_long_shear_waves_pass(self) -> None:
+        self.assertLess(chains.reflection(2 * math.pi / 1000, *chains.shear(1, 0.25)), 2e-6)
+
+
+class MeasuresFrequencies(unittest.TestCase):
+    def test_of_swings_side_by_side(self) -> None:
+        time, dt = np.arange(0, 12, 0.002), 0.01
+        signal = sum(a * np.sin(2 * math.pi * f * time + 1) for f, a in ((0.8, 1), (4.8, 0.5), (12.7, 0.3)))
+        for f, low, high in ((0.8, 0.4, 2), (4.8, 3, 7), (12.7, 10, 16)):
+            self.assertAlmostEqual(peaks(time, signal, 0, low, high)[0][0] / f, 1, delta=1e-4)
+        with_steps = peaks(time, signal, dt, 3, 7)[0][0]
+        self.assertAlmostEqual(math.asin(math.pi * with_steps * dt) / (math.pi * dt), 4.8, delta=1e-3)
 
 
 class Fails(unittest.TestCase):

@@ -20,10 +20,14 @@ SAME_CURVE = 0.05
 
 @dataclass(frozen=True)
 class Run:
-    """A case of examples/ and what is set in it."""
+    """A case and what is set in it."""
 
-    case: str
+    case: str  # a folder of examples/, or the path of a file
     settings: tuple[str, ...] = ()
+
+    @property
+    def file(self) -> str:
+        return self.case if self.case.endswith(".toml") else f"examples/{self.case}/case.toml"
 
 
 @dataclass(frozen=True)
@@ -58,7 +62,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the papers, what its words are taken to mean, and what we find."""
+    """A statement of the papers, or a figure that we want; what its words are taken to mean, and what we find."""
 
     source: str
     quote: str
@@ -95,7 +99,8 @@ class Picture:
 
 @dataclass(frozen=True)
 class Study:
-    """One case of the papers. The functions see the results under the labels of runs."""
+    """One case of the papers, or one of ours with a page of its own. The functions see the results under the labels of
+    runs."""
 
     name: str
     title: str
@@ -107,3 +112,5 @@ class Study:
     checks: Callable[[Results], list[Check]]
     pictures: list[Picture]
     timed: bool = False  # run by themselves, and more than once
+    page: str = ""  # the file of its own page
+    findings: str = ""  # on its own page, after all figures: what was found, what is left and why

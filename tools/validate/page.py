@@ -1,4 +1,5 @@
-"""Writes the page: statements and verdicts at a glance, then one section for each case."""
+"""Writes the pages: of the papers' cases statements and verdicts at a glance, then one section for each; of each of our
+studies its own."""
 from __future__ import annotations
 
 import shlex
@@ -10,7 +11,7 @@ from tools.validate.run import command
 
 WHY = """## Why results differ
 
-Geist computes the published method, and meets the direct solution of its equations (tables "What must be met"). That
+In these cases Geist computes the published method, and meets the direct solution of its equations (tables "What must be met"). That
 method has two systematic errors of opposite sign, which partly cancel:
 
 * **Soft surfaces.** A particle on a free surface lacks its outer bonds. A beam of particles alone, four, five or eight
@@ -60,6 +61,13 @@ def at_a_glance(claims: dict[str, list[Claim]]) -> str:
     return f"## At a glance\n\n{markdown(table)}\n{TAKEN}\n"
 
 
+def wanted(claims: list[Claim]) -> str:
+    rows = [[c.quote + (f" ({c.about})" if c.about else ""), c.meaning, c.figure,
+             ("✓ met" if c.agrees else "**✗ missed**") + ("" if c.holds else ", against what is known"), c.reason or "–"]
+            for c in claims]
+    return markdown(Table("What is wanted", ["wanted", "measured by", "Geist", "", "why"], rows))
+
+
 def statements(claims: list[Claim]) -> str:
     rows = [[quoted(c), c.meaning, c.figure, verdict(c), c.reason or "–"] for c in claims]
     return markdown(Table("What the paper says", ["statement", "taken to mean", "Geist", "verdict", "why"], rows))
@@ -89,16 +97,41 @@ def section(study: Study, results: Results, claims: list[Claim], checks: list[Ch
     return "\n".join(parts)
 
 
+def own_page(study: Study, results: Results, claims: list[Claim], checks: list[Check], runs: dict[str, Run]) -> str:
+    pictures = "".join(f"![{p.caption}]({p.file})\n\n*{p.caption}.*\n\n" for p in study.pictures)
+    parts = [f"# {study.title}\n", "<!-- Written by `./dev validate`; do not edit. -->\n", f"{study.text}\n",
+             wanted(claims), pictures.rstrip() + "\n", *(markdown(table) for table in study.tables(results)),
+             f"{study.findings}\n", references(checks), settings(runs, results)]
+    return "\n".join(parts)
+
+
+def index(own: list[Judged]) -> str:
+    rows = [[f"[{study.title}]({study.page})", f"{sum(c.agrees for c in claims)} of {len(claims)}"]
+            for study, _, claims, _ in own]
+    text = ("The papers' cases below are computed by the published method. What the consistent one (`method = "
+            '"consistent"`) does better, and what it does not, is on pages of its own')
+    return f"## The consistent method\n\n{markdown(Table(text, ['page', 'wanted figures met'], rows))}\n"
+
+
 def write(folder: Path, judged: list[Judged], short: bool, told: str) -> None:
-    """The page and its pictures."""
+    """The pages and their pictures; the papers' only if all of their cases are here."""
     folder.mkdir(parents=True, exist_ok=True)
     for study, results, _, _ in judged:
         for picture in study.pictures:
             save(picture.draw(results), folder / picture.file)
+    own = [of_study for of_study in judged if of_study[0].page]
+    papers = [of_study for of_study in judged if not of_study[0].page]
+    for of_study in own:
+        (folder / of_study[0].page).write_text(own_page(*of_study, of_study[0].runs(short)))
+    if told:
+        (folder / "README.md").write_text(papers_page(papers, own, short, told))
+
+
+def papers_page(papers: list[Judged], own: list[Judged], short: bool, told: str) -> str:
     head = ("# Validation against the published results\n\n"
             "<!-- Written by `./dev validate`; do not edit. -->\n\n"
             "The cases that the journal paper and the conference paper report, computed from `examples/`, and a verdict on "
             f"what they say of them. `./dev validate` makes this page anew; {told}\n\n")
-    glance = at_a_glance({study.name: claims for study, _, claims, _ in judged})
-    sections = [section(*of_study, of_study[0].runs(short)) for of_study in judged]
-    (folder / "README.md").write_text("\n".join([head + glance, WHY, *sections]))
+    glance = at_a_glance({study.name: claims for study, _, claims, _ in papers})
+    sections = [section(*of_study, of_study[0].runs(short)) for of_study in papers]
+    return "\n".join([head + index(own) + "\n" + glance, WHY, *sections])

@@ -21,7 +21,7 @@ class RunFailed(Exception):
 def command(run: Run) -> list[str]:
     """As one would type it."""
     sets = [word for setting in run.settings for word in ("--set", setting)]
-    return [str(PROGRAM), "run", f"examples/{run.case}/case.toml", *sets]
+    return [str(PROGRAM), "run", run.file, *sets]
 
 
 def execute(name: str, run: Run, folder: Path, options: list[str]) -> Result:
