@@ -105,5 +105,37 @@ TEST(DynamicBeam, FirstPeriodOfCoupledAndAllHexahedra) {
   RecordProperty("periods", fmt::format("{:.5f} {:.5f}", coupled, continuum));
 }
 
+/// A support that begins to move on a step that is checked: half of the work of its jump comes a step late.
+TEST(EnergyBalance, SurvivesAJumpOfVelocity) {
+  const Case input = read_case_text(R"(
+units = { length = "mm", mass = "g", time = "ms" }
+[materials.m]
+density = 0.001
+young = 1
+poisson = 0.2
+[regions.bar]
+type = "hexahedra"
+material = "m"
+box = [[0, 0, 0], [8, 1, 1]]
+divisions = [8, 1, 1]
+[curves.late]
+points = [[0, 0], [5, 0], [6, 1]]
+[[supports]]
+where = { x = 0 }
+displacement = { x = 0.01 }
+curve = "late"
+[analysis]
+type = "dynamic"
+time_step = 0.005
+duration = 5.5
+)",
+                                    "jump.toml");
+  Built built = build(input);
+  RunPlan plan = plan_of(input);
+  plan.check_every = 100;  // t = 5 is step 1000
+  const Outcome outcome = run(built.simulation, plan, {});
+  EXPECT_EQ(outcome.status, Status::completed) << outcome.message;
+}
+
 }  // namespace
 }  // namespace geist::verification
