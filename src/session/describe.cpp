@@ -12,6 +12,8 @@
 #include "fe/elements.hpp"
 #include "geometry/bounds.hpp"
 #include "output/console.hpp"
+#include "session/waves.hpp"
+#include "solver/tension.hpp"
 
 namespace geist {
 namespace {
@@ -29,18 +31,26 @@ std::string hex_region(const HexRegion& region, const Mesh& mesh, const output::
                      units.mass().name);
 }
 
+/// What the lattice's bonds make of its material: without end, and in a bar.
+std::string recovered(const Lattice& lattice, const output::UnitSystem& units) {
+  const std::string stress = units.label(output::dimension::stress);
+  const de::Recovered endless = de::recovered_constants(lattice);
+  const auto bar = tension_test(lattice);
+  return fmt::format(
+      "  {:<12} E = {:.6g} {}, nu = {:.6g}; endless lattice: {:.6g}, {:.6g}{}\n", "", lattice.material.young,
+      stress, lattice.material.poisson, endless.young, endless.poisson,
+      bar ? fmt::format("; a bar of 12 x 4 x 4 particles, pulled: {:.6g}, {:.4g}", bar->young, bar->poisson)
+          : "");
+}
+
 std::string lattice_region(const Lattice& lattice, const output::UnitSystem& units) {
   const std::size_t particles = lattice.count(site::particle);
-  const de::Recovered found = de::recovered_constants(lattice);
-  return fmt::format(
-      "  {:<12} {} particles of radius {:.6g} {}, {} bonds, {} ghosts; mass {:.6g} {}\n"
-      "  {:<12} recovered E = {:.6g} {}, nu = {:.6g} (endless lattice; material: {:.6g}, {:.6g})\n",
-      lattice.name, with_commas(static_cast<long long>(particles)), lattice.radius(), units.length().name,
-      with_commas(static_cast<long long>(de::bond_count(lattice))),
-      with_commas(static_cast<long long>(lattice.ghosts.size())),
-      lattice.mass * static_cast<double>(particles), units.mass().name, "", found.young,
-      units.label(output::dimension::stress), found.poisson, lattice.material.young,
-      lattice.material.poisson);
+  return fmt::format("  {:<12} {} particles of radius {:.6g} {}, {} bonds, {} ghosts; mass {:.6g} {}\n",
+                     lattice.name, with_commas(static_cast<long long>(particles)), lattice.radius(),
+                     units.length().name, with_commas(static_cast<long long>(de::bond_count(lattice))),
+                     with_commas(static_cast<long long>(lattice.ghosts.size())),
+                     lattice.mass * static_cast<double>(particles), units.mass().name) +
+         recovered(lattice, units);
 }
 
 std::string regions(const Built& built, const output::UnitSystem& units) {
@@ -147,8 +157,10 @@ std::string describe(const Case& input, const Built& built) {
   text += regions(built, units);
   if (input.coupling == "ghost-particles" && !built.simulation.model.lattices.empty() &&
       !built.simulation.model.mesh.elements.empty())
-    text += fmt::format("Coupling\n  ghost particles, rotation {}\n", input.rotation);
+    text +=
+        fmt::format("Coupling\n  {} method, ghost particles, rotation {}\n", input.method, input.rotation);
   if (!input.contact.empty()) text += contacts(built.simulation, units);
+  if (input.analysis.type == "dynamic") text += describe_waves(input, built.simulation.model);
   return text + time_step(input, built, units) + analysis(input, built, units);
 }
 

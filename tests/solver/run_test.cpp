@@ -104,18 +104,18 @@ TEST(Run, StopFlagEndsTheRunWithEverythingObserved) {
   }
 }
 
-/// Beyond the limit the energy runs away, and the first check that sees it stops the run.
+/// Beyond the limit the energy runs away; the first check sees it, and a second look stops the run.
 TEST(Run, RunawayEnergyStopsTheRun) {
   Built built = build_text(coupled_column(standing + std::string(moving) + dynamic(1)));
   built.simulation.dt = 1.5 * critical(built.bounds).bound;
   Notes notes;
   const Outcome outcome = run(built.simulation, dynamic_plan(1000), {&notes});
   EXPECT_EQ(outcome.status, Status::failed);
-  EXPECT_EQ(built.simulation.model.step, 100);
+  EXPECT_EQ(built.simulation.model.step, 101);
   EXPECT_NE(outcome.message.find("time step may be too long"), std::string::npos) << outcome.message;
   EXPECT_NE(outcome.message.find("moves fastest is region '"), std::string::npos) << outcome.message;
-  EXPECT_EQ(notes.rows.back(), 100);
-  EXPECT_EQ(notes.pictures.back(), 100);
+  EXPECT_EQ(notes.rows.back(), 101);
+  EXPECT_EQ(notes.pictures.back(), 101);
 }
 
 TEST(Run, NaNIsFoundAtOnceAndNamed) {
