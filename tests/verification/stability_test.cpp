@@ -9,6 +9,12 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/parallel.hpp"
+#include "de/bonds.hpp"
+#include "fe/elements.hpp"
+#include "solver/nodes.hpp"
+#include "solver/places.hpp"
+#include "verification/bodies.hpp"
 #include "verification/support.hpp"
 
 namespace geist::verification {
@@ -151,6 +157,88 @@ TEST(Stability, TheLimitIsWhereTheProgramBreaks) {
     const bool steady = sim.kinetic_energy() < 100;  // 3 mJ are put in
     EXPECT_EQ(steady, factor < 1);
   }
+}
+
+/// The same for the consistent method, of which there is no literal algorithm: columns from the program's own
+/// kernels, the elements cut, the gradients balanced, ghosts turning with the continuum.
+class Columns {
+ public:
+  explicit Columns(const Case& input) : sim_(std::move(build(input).simulation)), places_(sim_.model, 1000) {
+    for (std::size_t k = 0; k < places_.size(); ++k)
+      for (std::size_t c = 0; c < 6; ++c)
+        if (places_[k].free >> c & 1) rows_.push_back(6 * k + c);
+  }
+
+  Eigen::MatrixXd scaled_stiffness() {
+    set_threads(1);
+    const auto n = static_cast<Eigen::Index>(rows_.size());
+    Eigen::MatrixXd K(n, n);
+    PlaceVector x(6 * places_.size()), f(6 * places_.size());
+    for (Eigen::Index j = 0; j < n; ++j) {
+      x[rows_[j]] = 1;
+      force(x, f);
+      x[rows_[j]] = 0;
+      for (Eigen::Index i = 0; i < n; ++i)
+        K(i, j) = -f[rows_[i]] / std::sqrt(mass(rows_[i]) * mass(rows_[j]));
+    }
+    return K;
+  }
+
+ private:
+  void force(const PlaceVector& x, PlaceVector& f) {
+    Model& model = sim_.model;
+    places_.put(x, model);
+    fe::internal_forces(model.mesh);
+    for (Lattice& lattice : model.lattices)
+      de::bond_forces_and_kick(lattice, {.keep = 0, .per_mass = 1, .per_inertia = 1, .gravity = {}});
+    gather_internal_forces(model.mesh);
+    sim_.reactions.add(model);
+    places_.take(model, f);
+  }
+
+  double mass(std::size_t row) const {
+    const Place& place = places_[row / 6];
+    if (place.lattice < 0) return sim_.model.mesh.mass[place.index];
+    const Lattice& lattice = sim_.model.lattices[static_cast<std::size_t>(place.lattice)];
+    return row % 6 < 3 ? lattice.mass : lattice.inertia;
+  }
+
+  Simulation sim_;
+  Places places_;
+  std::vector<std::size_t> rows_;
+};
+
+void expect_consistent_is_safe(const Case& input, const std::string& name, double least = 0.5) {
+  const Eigen::MatrixXd K = Columns(input).scaled_stiffness();
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((K + K.transpose()) / 2, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  const double highest = values(values.size() - 1);
+  EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), rounding * highest) << name;
+  EXPECT_GT(values(0), -rounding * highest) << name;
+  EXPECT_LT(values(5), rounding * highest) << name;  // rigid motions
+  EXPECT_GT(values(6), 1e-6 * highest) << name;      // and nothing else is free
+  const double limit = 2 / std::sqrt(highest), bound = critical(build(input).bounds).bound;
+  EXPECT_LE(bound, limit) << name;
+  EXPECT_GE(bound, least * limit) << name;
+  ::testing::Test::RecordProperty(name, fmt::format("{:.3f}", bound / limit));
+}
+
+Case consistent(Case input) { return read_case_text(input.original, "small.toml", {"method=consistent"}); }
+
+TEST(Stability, BoundOfTheConsistentMethod) {
+  for (const int n : {1, 2, 3})
+    for (const std::string formulation : {"selective-reduced", "assumed-strain", "one-point"})
+      expect_consistent_is_safe(consistent(small_body(n, formulation, "cube")),
+                                fmt::format("{} {}", formulation, n));
+  expect_consistent_is_safe(consistent(small_body(3, "full", "sphere")), "sphere");
+}
+
+/// Corners in the interface, distorted hexahedra.
+TEST(Stability, BoundOfTheConsistentMethodAtCorners) {
+  const std::vector<std::string> free{"method=consistent", "supports=[]", "loads=[]"};
+  expect_consistent_is_safe(read_case_text(box_in_an_L, "L.toml", free), "box in an L", 0.3);
+  expect_consistent_is_safe(read_case_text(L_around_a_box, "L.toml", free), "L around a box", 0.3);
 }
 
 }  // namespace
