@@ -3,7 +3,7 @@
 //
 // Cut the region into cubes between the centres of particles. A site is the corner of eight of them, and of
 // each the octant next to it is material if the site is occupied. Of a cube whose occupied corners are
-//   all eight             a cell: its 12 edges get ¼ and its 12 face diagonals ½ of a bond (5);
+//   all eight             a cell: its 12 edges get ¼ and its 12 face diagonals ½ of an inner bond;
 //   all four of a face    a skin r thick in plane stress, for each such face: 4 sides ½, 2 diagonals 1 of
 //                         k_n1 = rE/(1+ν), k_s1 = rE(1−3ν)/((1+ν)(1−ν)) and k_n2 = rνE/(1−ν²), k_s2 = 0;
 //   both of an edge       a bar r × r, k_n = Er/2, so that there is one for each occupied edge: an edge in no

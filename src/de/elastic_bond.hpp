@@ -7,8 +7,13 @@
 //
 // With n the unit vector from i to j: f = k_s d + (k_n − k_s)(d·n) n, and E = ½ f·d. k_s ≥ 0 needs ν ≤ 1/4.
 //
-// Consistent: springs by the class of the site (de/assembly.hpp), and bonds of group 1 resist bending and
-// twisting, m = k (θ_j − θ_i) on i with k_b across the bond and k_t along it.
+// Consistent: springs by the class of the site (de/assembly.hpp); in the endless lattice
+//
+//   group 1: k_n = 2r (2μ − λ), k_s = 4r (μ − λ);   group 2: k_n = 2rλ, k_s = 0
+//
+// which is the one isotropic lattice of these bonds whose diagonals do not shear, as free as (5) up to ν =
+// 1/4: then the moments on every single corner of a cell vanish in homogeneous strain. Bonds of group 1 also
+// resist bending and twisting, m = k (θ_j − θ_i) on i with k_b across the bond and k_t along it.
 #pragma once
 #include "core/pack.hpp"
 #include "model/lattice.hpp"
