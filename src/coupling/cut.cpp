@@ -77,13 +77,13 @@ void give(double mass, const Ghost& ghost, const Mesh& mesh, Cuts& cuts,
   }
 }
 
-void take_octants(Model& model, const Locator& locator, Cuts& cuts) {
+void take_octants(const Model& model, const Locator& locator, Cuts& cuts) {
   const Mesh& mesh = model.mesh;
   std::vector<std::int32_t> element_of_node(mesh.nodes(), -1);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     for (const std::int32_t node : mesh.elements[e])
       element_of_node[static_cast<std::size_t>(node)] = static_cast<std::int32_t>(e);
-  for (Lattice& lattice : model.lattices)
+  for (const Lattice& lattice : model.lattices)
     visit_octants(lattice, [&](const Ghost& ghost, const Octant& octant) {
       bool found_whole = false;
       for (const std::int32_t e : locator.near(octant.box)) {

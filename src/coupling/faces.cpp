@@ -19,7 +19,7 @@ std::vector<Square> near_squares(const Lattice& lattice, const Octant& octant) {
   for (int axis = 0; axis < 3; ++axis) {
     std::array<int, 3> beside = octant.sign;
     beside[axis] = -beside[axis];
-    if (detail::has_particle(lattice, octant.ghost->site, beside)) continue;
+    if (is_the_lattices(lattice, octant.ghost->site, beside)) continue;
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     Square square{std::vector<Vec3>(4, octant.x_g), {}};
     for (const int k : {1, 2}) square.corners[k][b] += octant.sign[b] * lattice.radius();
@@ -98,10 +98,10 @@ void spread_ghosts(Model& model, const Locator& locator) {
   }
 }
 
-std::map<std::int32_t, Vec3> pull_defects(Model& model, const Locator& locator) {
+std::map<std::int32_t, Vec3> pull_defects(const Model& model, const Locator& locator) {
   std::map<std::int32_t, Vec3> defects;
-  for (Lattice& lattice : model.lattices)
-    visit_octants(lattice, [&](Ghost& ghost, const Octant& octant) {
+  for (const Lattice& lattice : model.lattices)
+    visit_octants(lattice, [&](const Ghost& ghost, const Octant& octant) {
       for (const Square& square : near_squares(lattice, octant)) {
         const Shares shares = integrate(square, lattice.radius(), model.mesh, locator);
         for (const auto& [node, share] : shares.by_node) defects[node] -= share * square.n;

@@ -21,6 +21,6 @@ namespace geist::coupling {
 void spread_ghosts(Model& model, const Locator& locator);
 
 /// By node, what (*) lacks: Σ_g N_ga A_g − ∫ N_a n dA.
-std::map<std::int32_t, Vec3> pull_defects(Model& model, const Locator& locator);
+std::map<std::int32_t, Vec3> pull_defects(const Model& model, const Locator& locator);
 
 }  // namespace geist::coupling

@@ -17,9 +17,8 @@ struct Octant {
   Box box;
 };
 
-namespace detail {
-
-inline bool has_particle(const Lattice& lattice, std::size_t site, const std::array<int, 3>& sign) {
+/// Whether the octant of a site's cube on that side is the lattice's.
+inline bool is_the_lattices(const Lattice& lattice, std::size_t site, const std::array<int, 3>& sign) {
   const Grid& grid = lattice.grid;
   const auto [i, j, k] = grid.ijk(site);
   for (int corner = 1; corner < 8; ++corner) {
@@ -30,16 +29,14 @@ inline bool has_particle(const Lattice& lattice, std::size_t site, const std::ar
   return false;
 }
 
-}  // namespace detail
-
-/// Call visit(octant) for all of a lattice's octants, in order of ghosts.
-template <class Visit>
-void visit_octants(Lattice& lattice, Visit visit) {
+/// Call visit(ghost, octant) for all of a lattice's octants, in order of ghosts.
+template <class AnyLattice, class Visit>
+void visit_octants(AnyLattice& lattice, Visit visit) {
   const double r = lattice.radius();
-  for (Ghost& ghost : lattice.ghosts)
+  for (auto& ghost : lattice.ghosts)
     for (int octant = 0; octant < 8; ++octant) {
       const std::array<int, 3> sign{octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1};
-      if (!detail::has_particle(lattice, ghost.site, sign)) continue;
+      if (!is_the_lattices(lattice, ghost.site, sign)) continue;
       const Vec3 x_g = lattice.grid.centre(ghost.site);
       Box box = nowhere();
       widen(box, x_g), widen(box, x_g + r * Vec3{1.0 * sign[0], 1.0 * sign[1], 1.0 * sign[2]});
