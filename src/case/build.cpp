@@ -73,7 +73,9 @@ double places(const RegionSpec& spec) {
 void check_memory(const Case& input) {
   constexpr double gibi = 1024.0 * 1024 * 1024;
   const bool solves = input.analysis.type == "static" || input.analysis.start == "static";
-  const double element = solves ? 1300 : 1000, particle = solves ? 550 : 250;  // bytes at most, measured
+  const double rotation = input.analysis.kinematics == "finite" ? 72 : 0;
+  const double element = solves ? 1300 : 1000,
+               particle = (solves ? 550 : 250) + rotation;  // bytes at most, measured
   const double there =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   double needed = 0;
