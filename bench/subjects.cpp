@@ -41,6 +41,7 @@ std::string case_text(const std::string& full_name, int edge) {
                                                      "formulation = \"{1}\"\n",
                                                      edge, name);
   return fmt::format(R"(title = "benchmark"
+method = "published"
 units = {{ length = "mm", mass = "g", time = "ms" }}
 [materials.polymer]
 density = 0.001

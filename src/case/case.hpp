@@ -132,11 +132,11 @@ struct OutputSpec {
 struct Case {
   std::string file, title;
   Units units;
-  std::string method = "published";  ///< or "consistent"
+  std::string method = "consistent";  ///< or "published"
   std::map<std::string, Material> materials;
   std::vector<RegionSpec> regions;           ///< in file order
   std::string coupling = "ghost-particles";  ///< or "none"
-  std::string rotation = "one-step-back";    ///< or "continuum", "none"
+  std::string rotation = "continuum";        ///< or "one-step-back", "none"
   Source coupling_source;
   std::vector<ContactSpec> contact;
   std::map<std::string, Curve> curves;

@@ -153,7 +153,7 @@ Table analysis_table() {
            .otherwise("\"undeformed\"")
            .when(dynamic),
        kinematics().otherwise("\"small\"").when({"start", "static"}),
-       kinematics().otherwise("\"small\"").when(dynamic),
+       kinematics().otherwise("\"finite\"", "\"small\"").when(dynamic),
        kinematics().otherwise("\"small\"").when({"type", "dynamic", true}),
        number("duration", "time",
               "Dynamic: the end of the run. Quasi-static: where to give up (without it, "

@@ -35,14 +35,34 @@ TEST(Read, Beam) {
   EXPECT_EQ(block.corners[6], (Vec3{7, 2, 2}));
   EXPECT_EQ(block.corners[3], (Vec3{0, 2, 0}));
   EXPECT_EQ(block.divisions, (std::array<int, 3>{14, 4, 4}));
-  EXPECT_EQ(left.formulation, "selective-reduced");
   const auto& middle = std::get<LatticeSpec>(beam.regions[1].shape);
   EXPECT_EQ(middle.radius, 0.1);
-  EXPECT_EQ(middle.rotary_inertia, "sphere");
   EXPECT_EQ(beam.analysis.tolerance, 1e-6);
   EXPECT_EQ(beam.probes.at(0).reduce, "mean");
   EXPECT_EQ(beam.output.history_every, 0.01);
   EXPECT_TRUE(beam.output.compress);
+}
+
+/// What a method's defaults are, and in which analyses displacements are finite.
+TEST(Read, DefaultsOfTheMethods) {
+  const std::string dynamic = "analysis={type=\"dynamic\",duration=1}";
+  const auto beam = [](const std::vector<std::string>& set) {
+    return read_case(GEIST_SOURCE_DIR "/examples/beam/case.toml", set);
+  };
+  const auto expect = [](const Case& is, const std::string& formulation, const std::string& inertia,
+                         const std::string& rotation, const std::string& kinematics) {
+    EXPECT_EQ(std::get<HexahedraSpec>(is.regions[0].shape).formulation, formulation);
+    EXPECT_EQ(std::get<LatticeSpec>(is.regions[1].shape).rotary_inertia, inertia);
+    EXPECT_EQ(is.rotation, rotation);
+    EXPECT_EQ(is.analysis.kinematics, kinematics);
+  };
+  EXPECT_EQ(beam({}).method, "consistent");
+  expect(beam({}), "assumed-strain", "cube", "continuum", "small");
+  expect(beam({"analysis.type=static"}), "assumed-strain", "cube", "continuum", "small");
+  expect(beam({dynamic}), "assumed-strain", "cube", "continuum", "finite");
+  expect(beam({dynamic, "analysis.start=static"}), "assumed-strain", "cube", "continuum", "small");
+  expect(beam({"method=published"}), "selective-reduced", "sphere", "one-step-back", "small");
+  expect(beam({"method=published", dynamic}), "selective-reduced", "sphere", "one-step-back", "small");
 }
 
 TEST(Read, WideBeam) {
@@ -187,7 +207,7 @@ TEST(Read, CompleteCaseReadsBackTheSame) {
 TEST(Read, CompleteCaseHasDefaultsAndChanges) {
   const Case changed = read_case_text(good_case, "case.toml", {"analysis.safety=0.5"});
   EXPECT_NE(changed.toml.find("safety = 0.5\n"), std::string::npos);
-  EXPECT_NE(changed.toml.find("rotation = \"one-step-back\"\n"), std::string::npos);
+  EXPECT_NE(changed.toml.find("rotation = \"continuum\"\n"), std::string::npos);
   EXPECT_EQ(changed.original, good_case);
 }
 

@@ -1,5 +1,5 @@
 // What the tests of the solver share: a bar of one material, ν = 0, so that bars and columns are
-// one-dimensional.
+// one-dimensional. By the published method, with small displacements.
 #pragma once
 #include <string>
 
@@ -17,6 +17,7 @@ inline constexpr double young = 100, density = 2, length = 4, area = 1;
 /// 4 × 1 × 1 along z, standing on z = 0: hexahedra, with `rest` of the case file.
 inline std::string column(const std::string& rest, const std::string& formulation = "full") {
   return fmt::format(R"(
+method = "published"
 units = {{ length = "m", mass = "kg", time = "s" }}
 [materials.stuff]
 density = {}
@@ -35,6 +36,7 @@ formulation = "{}"
 /// The same with particles above z = 2.
 inline std::string coupled_column(const std::string& rest) {
   return fmt::format(R"(
+method = "published"
 units = {{ length = "m", mass = "kg", time = "s" }}
 [materials.stuff]
 density = {}

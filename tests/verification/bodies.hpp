@@ -1,10 +1,12 @@
-// Small coupled bodies with corners in their interfaces, of every formulation but the viscous one.
+// Small coupled bodies with corners in their interfaces, of every formulation but the viscous one, by the
+// published method; tests of the consistent one set it.
 #pragma once
 
 namespace geist::verification {
 
 /// A lattice in the corner of an L of hexahedra: it meets them at x = 1 and y = 1.
 inline constexpr const char* box_in_an_L = R"(
+method = "published"
 units = { length = "mm", mass = "g", time = "ms" }
 [materials.polymer]
 density = 0.001
@@ -47,6 +49,7 @@ duration = 1
 
 /// An L of particles around a block of distorted hexahedra: every ghost lies in that block.
 inline constexpr const char* L_around_a_box = R"(
+method = "published"
 units = { length = "mm", mass = "g", time = "ms" }
 [materials.polymer]
 density = 0.001

@@ -54,7 +54,7 @@ double Recording::worst_momentum() const {
 }
 
 Recording run_text(const std::string& text, double every, const Watch& watch, int threads) {
-  const Case input = read_case_text(text, "contact.toml");
+  const Case input = read_case_text(text, "contact.toml", {"method=published"});
   Recording recording{build(input), {}, {}, {}, {}, {}, {}};
   RunPlan plan = plan_of(input);
   plan.history_every = every;

@@ -23,6 +23,7 @@ namespace {
 /// Two hexahedra of edge 1 in a row, and particles beyond them, n to a hexahedron's edge.
 Case small_body(int n, const std::string& formulation, const std::string& inertia = "sphere") {
   return read_case_text(fmt::format(R"(
+method = "published"
 units = {{ length = "mm", mass = "g", time = "ms" }}
 [materials.m]
 density = 1

@@ -51,6 +51,11 @@ Case example(const std::string& name, const std::vector<std::string>& set) {
   return read_case(fmt::format("{}/examples/{}/case.toml", GEIST_SOURCE_DIR, name), set);
 }
 
+Case published(const std::string& name, std::vector<std::string> set) {
+  set.push_back("method=published");
+  return example(name, set);
+}
+
 RunPlan plan_of(const Case& input) {
   RunPlan plan;
   plan.quasi_static = input.analysis.type == "quasi-static";
@@ -69,8 +74,7 @@ Outcome run_to_end(const Case& input, Built& built, const std::vector<Observer*>
   return run(built.simulation, plan_of(input), observers);
 }
 
-double static_tip(const std::string& name, const std::vector<std::string>& set) {
-  const Case input = example(name, set);
+double static_tip(const Case& input) {
   Built built = build(input);
   const Outcome outcome = run_to_end(input, built);
   if (outcome.status != Status::completed) throw std::runtime_error(outcome.message);

@@ -13,6 +13,9 @@ namespace geist::verification {
 /// examples/<name>/case.toml with --set options.
 Case example(const std::string& name, const std::vector<std::string>& set = {});
 
+/// The same by the published method.
+Case published(const std::string& name, std::vector<std::string> set = {});
+
 /// A run's plan as the program makes it from the case; fields and history are nobody's business here.
 RunPlan plan_of(const Case& input);
 
@@ -20,7 +23,7 @@ RunPlan plan_of(const Case& input);
 Outcome run_to_end(const Case& input, Built& built, const std::vector<Observer*>& observers = {});
 
 /// The value of the probe `tip` after a quasi-static run, which must have converged.
-double static_tip(const std::string& name, const std::vector<std::string>& set = {});
+double static_tip(const Case& input);
 
 /// The options that make a region of the beam a block of hexahedra with these divisions.
 std::string hexahedra(const std::string& region, double from, double to, const std::string& divisions);

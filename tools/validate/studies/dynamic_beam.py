@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from tools.validate.model import SAME_CURVE, Band, Check, Claim, Picture, Results, Run, Study, Table
 from tools.validate.plots import COUPLED, HEXAHEDRA, label, panels
 from tools.validate.results import Result
-from tools.validate.studies.beam import ALL_HEXAHEDRA, percent
+from tools.validate.studies.beam import ALL_HEXAHEDRA, journal, percent
 
 PERIOD = 1.2381  # ms, Euler's beam: (2π/1.8751²) √(ρ A L⁴ / E I)
 RISES = {"at once": 0.0, "within 0.5 ms": 0.5, "within 1 ms": 1.0}  # how the load comes
@@ -24,7 +24,7 @@ def run(duration: float, rise: float, more: tuple[str, ...]) -> Run:
         settings.append(f'probes.{quantity}={{where={where},quantity="{quantity}",component="z"}}')
     if rise > 0:
         settings += [f"curves.rise.points=[[0,0],[{rise},1]]", "loads.0.curve=rise"]
-    return Run("beam", (*settings, *more))
+    return journal(*settings, *more)
 
 
 def runs(short: bool) -> dict[str, Run]:

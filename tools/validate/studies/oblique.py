@@ -24,7 +24,7 @@ WHOLE = "hexahedra of one length"
 
 
 def hexahedra(box: str, divisions: str) -> str:
-    return f'{{type="hexahedra",material="body",box={box},divisions={divisions}}}'
+    return f'{{type="hexahedra",material="body",box={box},divisions={divisions},formulation="selective-reduced"}}'
 
 
 def sheet(thick: int) -> str:

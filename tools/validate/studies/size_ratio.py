@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from tools.validate.model import CLOSE, Band, Check, Claim, Picture, Results, Run, Study, Table
 from tools.validate.plots import COUPLED, THEORY as GREY, label, panels
-from tools.validate.studies.beam import (ALL_HEXAHEDRA, CONVERGED, FULL, THEORY, against_direct, beam, percent)
+from tools.validate.studies.beam import (ALL_HEXAHEDRA, CONVERGED, FULL, THEORY, against_direct, beam, journal, percent)
 
 LAYERS = (2, 4, 5, 8, 10)
 SOURCE = "journal paper, section 4, beam, Table 2"
@@ -15,8 +15,8 @@ SOFT = ("Soft free surfaces of the particles add more to the deflection than the
 
 def runs(short: bool) -> dict[str, Run]:
     coupled = {f"{n} layers": beam(layers=n) for n in LAYERS}
-    return coupled | {"all hexahedra": Run("beam", ALL_HEXAHEDRA),
-                      "all hexahedra, full": Run("beam", ALL_HEXAHEDRA + FULL)}
+    return coupled | {"all hexahedra": journal(*ALL_HEXAHEDRA),
+                      "all hexahedra, full": journal(*ALL_HEXAHEDRA, *FULL)}
 
 
 def errors(results: Results) -> dict[int, float]:
