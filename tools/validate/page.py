@@ -108,8 +108,8 @@ def own_page(study: Study, results: Results, claims: list[Claim], checks: list[C
 def index(own: list[Judged]) -> str:
     rows = [[f"[{study.title}]({study.page})", f"{sum(c.agrees for c in claims)} of {len(claims)}"]
             for study, _, claims, _ in own]
-    text = ("The papers' cases below are computed by the published method. What the consistent one (`method = "
-            '"consistent"`) does better, and what it does not, is on pages of its own')
+    text = ('The papers\' cases below are computed by the published method (`method = "published"`). What the consistent '
+            "one, the default, does better, and what it does not, is on pages of its own")
     return f"## The consistent method\n\n{markdown(Table(text, ['page', 'wanted figures met'], rows))}\n"
 
 
