@@ -24,7 +24,8 @@ Table root() {
       {text("title", "One line that says what the case is.").otherwise("\"\""),
        choice(
            "method", {"consistent", "published"},
-           "Consistent: lattices assembled from cells, skins and edges, with bonds that bend and twist; every "
+           "Consistent: lattices assembled from cells, skins and edges, with bonds that bend and twist; "
+           "every "
            "material point counted once where particles meet hexahedra; ghosts that turn with the continuum. "
            "Published, as in the papers: their lattice, ghosts that spin, a sphere's rotary inertia, small "
            "displacements, selective-reduced hexahedra. The last four are defaults, which their own keys "

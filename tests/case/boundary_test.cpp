@@ -148,7 +148,10 @@ TEST(InitialMotion, IsThatOfARigidBody) {
 
 TEST(InitialMotion, OfEverythingSpinsGhostsToo) {
   const std::string more = "[[initial]]\nvelocity = [0, 0, 1]\nspin = [0, 2, 0]\nabout = [0, 0, 0]\n";
-  const Simulation sim = simulation(more);
+  const auto ghosts = [](const std::string& rotation) {
+    return "kinematics = \"small\"\n[coupling]\nrotation = \"" + rotation + "\"\n";
+  };
+  const Simulation sim = simulation(ghosts("one-step-back") + more);
   const Lattice& lattice = sim.model.lattices[0];
   EXPECT_EQ(lattice.ghosts.size(), 16u);
   for (const Ghost& ghost : lattice.ghosts)
@@ -157,7 +160,7 @@ TEST(InitialMotion, OfEverythingSpinsGhostsToo) {
     const Vec3 p = sim.model.mesh.points[i];
     EXPECT_LT(norm(sim.model.mesh.v.vector(i) - Vec3{2 * p.z, 0, 1 - 2 * p.x}), 1e-14);
   }
-  const Simulation without = simulation(more + "[coupling]\nrotation = \"none\"\n");
+  const Simulation without = simulation(ghosts("none") + more);
   for (const Ghost& ghost : without.model.lattices[0].ghosts)
     EXPECT_EQ(without.model.lattices[0].velocity.vector(ghost.site, 3), Vec3{});
 }

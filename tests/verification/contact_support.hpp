@@ -32,7 +32,8 @@ struct Recording {
 
 using Watch = std::function<double(const Simulation&)>;
 
-/// Run the case's text by the published method, with small displacements. `every`: of history; 0: a thousand rows.
+/// Run the case's text by the published method, with small displacements. `every`: of history; 0: a thousand
+/// rows.
 Recording run_text(const std::string& text, double every = 0, const Watch& watch = {}, int threads = 1);
 
 /// Velocity, spin and present position of the only particle of lattice l.

@@ -1,5 +1,5 @@
-// Static analysis of the beams, mostly by the published method: the direct solutions of statics_test.cpp to every digit that they
-// have, and dynamic relaxation where it is pushed that far.
+// Static analysis of the beams, mostly by the published method: the direct solutions of statics_test.cpp to
+// every digit that they have, and dynamic relaxation where it is pushed that far.
 #include <gtest/gtest.h>
 
 #include "core/parallel.hpp"

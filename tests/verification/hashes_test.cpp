@@ -20,7 +20,7 @@ namespace {
 
 const std::map<std::string, std::string> golden{
     {"ball-on-plate", "4dadfe2430800440"},
-    {"beam", "?"},
+    {"beam", "e353da229639761a"},
     {"wide-beam", "53222637c487b411"},
 };
 const std::string golden_of_the_published_beam = "4d9bc8526500b6f3";

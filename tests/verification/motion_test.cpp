@@ -27,9 +27,9 @@ constexpr long steps = 5000;
 
 /// The shipped beam, without supports and loads, with initial motion.
 Simulation free_beam(const std::string& initial, const std::string& method = "published") {
-  const Case input =
-      example("beam", {"method=" + method, "supports=[]", "loads=[]", "initial=[" + initial + "]",
-                       "regions.middle.radius=0.2", "analysis={type=\"dynamic\",kinematics=\"small\",duration=1}"});
+  const Case input = example(
+      "beam", {"method=" + method, "supports=[]", "loads=[]", "initial=[" + initial + "]",
+               "regions.middle.radius=0.2", "analysis={type=\"dynamic\",kinematics=\"small\",duration=1}"});
   return std::move(build(input).simulation);
 }
 

@@ -1,6 +1,6 @@
 // Beams by dynamic relaxation. The static limit of the published method: against direct solutions of the same
-// equations (sparse Cholesky, made independently of this program; docs/theory.md). The consistent method: against
-// converged hexahedra.
+// equations (sparse Cholesky, made independently of this program; docs/theory.md). The consistent method:
+// against converged hexahedra.
 //
 // A residual of 1e-6 of the load leaves the tip within about 1e-6 × (slenderness effects of 10²) of its
 // limit, so that 0.1 % tests the equations and not the relaxation. The references have seven digits.
