@@ -239,7 +239,8 @@ TEST(Stability, BoundOfTheConsistentMethod) {
 
 /// Corners in the interface, distorted hexahedra.
 TEST(Stability, BoundOfTheConsistentMethodAtCorners) {
-  const std::vector<std::string> free{"method=consistent", "analysis.kinematics=small", "supports=[]", "loads=[]"};
+  const std::vector<std::string> free{"method=consistent", "analysis.kinematics=small", "supports=[]",
+                                      "loads=[]"};
   expect_consistent_is_safe(read_case_text(box_in_an_L, "L.toml", free), "box in an L", 0.3);
   expect_consistent_is_safe(read_case_text(L_around_a_box, "L.toml", free), "L around a box", 0.3);
 }
