@@ -100,10 +100,10 @@ void check_static(Document& document, const View& root, const View& analysis) {
 void check_finite(Document& document, const View& root, const View& analysis) {
   const auto coupling = root.table("coupling");
   if (coupling && coupling->get<std::string>("rotation") == "none")
-    document.report(
-        coupling->place("rotation"),
-        "ghosts that do not turn resist any rotation of the body; use kinematics = \"small\", or let "
-        "them turn");
+    document.report(coupling->place("rotation"),
+                    "ghosts that do not turn resist any rotation of the body: set kinematics = \"small\" "
+                    "under [analysis] "
+                    "(a dynamic analysis is finite by default), or let them turn");
   if (analysis.get<std::string>("type") == "static" || analysis.get<std::string>("start") == "static")
     document.report(analysis.place("kinematics"),
                     "equilibrium is solved for with small displacements; with finite ones, type = "

@@ -111,7 +111,7 @@ std::string Progress::line(const ProgressReport& report, double now) {
                         report.iterating ? "iterations" : "steps");
   const double left = seconds_left(report, now);
   if (left < 59.5)
-    text += fmt::format(" | {:.0f} s left", left);
+    text += fmt::format(" | {:.0f} s left", std::max(0.0, left));
   else if (std::isfinite(left))
     text += fmt::format(" | {} left", human_seconds(left));
   return text;

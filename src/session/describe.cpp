@@ -155,12 +155,13 @@ std::string describe(const Case& input, const Built& built) {
                       input.units.time, units.label(output::dimension::force),
                       units.label(output::dimension::stress), units.label(output::dimension::energy));
   text += regions(built, units);
-  if (input.coupling == "ghost-particles" && !built.simulation.model.lattices.empty() &&
-      !built.simulation.model.mesh.elements.empty())
-    text +=
-        fmt::format("Coupling\n  {} method, ghost particles, rotation {}\n", input.method, input.rotation);
+  const Model& model = built.simulation.model;
+  const bool coupled =
+      input.coupling == "ghost-particles" && !model.lattices.empty() && !model.mesh.elements.empty();
+  text += fmt::format("Method\n  {}, {} displacements{}\n", input.method, input.analysis.kinematics,
+                      coupled ? fmt::format("; ghost particles, rotation {}", input.rotation) : "");
   if (!input.contact.empty()) text += contacts(built.simulation, units);
-  if (input.analysis.type == "dynamic") text += describe_waves(input, built.simulation.model);
+  if (input.analysis.type == "dynamic") text += describe_waves(input, model);
   return text + time_step(input, built, units) + analysis(input, built, units);
 }
 
