@@ -131,7 +131,7 @@ Key kinematics() {
   return choice(
       "kinematics", {"small", "finite"},
       "Displacements: small, with directions frozen as in the papers; or finite, in axes that turn with "
-      "every hexahedron and every particle: rotations may be any, strains moderate. Statics are small.");
+      "every hexahedron and every particle: rotations may be any, strains moderate.");
 }
 
 Table analysis_table() {

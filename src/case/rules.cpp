@@ -97,17 +97,13 @@ void check_static(Document& document, const View& root, const View& analysis) {
 }
 
 /// What cannot turn yet.
-void check_finite(Document& document, const View& root, const View& analysis) {
+void check_finite(Document& document, const View& root) {
   const auto coupling = root.table("coupling");
   if (coupling && coupling->get<std::string>("rotation") == "none")
     document.report(coupling->place("rotation"),
                     "ghosts that do not turn resist any rotation of the body: set kinematics = \"small\" "
                     "under [analysis] "
                     "(a dynamic analysis is finite by default), or let them turn");
-  if (analysis.get<std::string>("type") == "static" || analysis.get<std::string>("start") == "static")
-    document.report(analysis.place("kinematics"),
-                    "equilibrium is solved for with small displacements; with finite ones, type = "
-                    "\"quasi-static\" finds it");
 }
 
 void check_analysis(Document& document, const View& root) {
@@ -118,7 +114,7 @@ void check_analysis(Document& document, const View& root) {
   if (type == "static") check_static(document, root, *analysis);
   if (type == "dynamic" && analysis->get<std::string>("start") == "static")
     check_equilibrium(document, root, *analysis, "start");
-  if (analysis->get<std::string>("kinematics") == "finite") check_finite(document, root, *analysis);
+  if (analysis->get<std::string>("kinematics") == "finite") check_finite(document, root);
 }
 
 }  // namespace

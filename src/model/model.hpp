@@ -20,4 +20,7 @@ struct Model {
 const std::string& region_name(const Model& model, std::int32_t region);
 const Material& region_material(const Model& model, std::int32_t region);
 
+/// Whether anything in it has finite rotations.
+bool turns_finitely(const Model& model);
+
 }  // namespace geist

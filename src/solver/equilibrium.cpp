@@ -5,32 +5,33 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "fe/elements.hpp"
 #include "solver/free_bodies.hpp"
-#include "solver/nodes.hpp"
-#include "solver/places.hpp"
 #include "solver/point_blocks.hpp"
 #include "solver/rigid_blocks.hpp"
+#include "solver/static_model.hpp"
 
 namespace geist {
 namespace {
 
-/// Measured: fewer places a block do not pay in iterations, and the matrix of 2000 blocks is factorised in a
-/// second.
+/// At least a hundred blocks, and at most about a thousand: their matrix is factorised within a second.
+/// Measured: fewer than eight places a block do not pay in iterations, more than a hundred cost time.
 std::size_t block_size(const Model& model) {
   std::size_t places = model.mesh.nodes();
   for (const Lattice& lattice : model.lattices) places += lattice.count(site::particle);
-  return std::max<std::size_t>(100, places / 1000);
+  return std::max(std::clamp<std::size_t>(places / 100, 8, 100), places / 1000);
 }
 
-/// Sums over places.
-struct Norms {
-  double free = 0, held = 0;
-  Norms& operator+=(const Norms& b) { return free += b.free, held += b.held, *this; }
-};
+/// Finite rotations, measured on cantilevers that bend to sixty degrees: looser linear solutions take more of
+/// Newton's steps, each of which sets up the preconditioner anew.
+constexpr double linear_tolerance = 1e-3;  ///< of the residual before the step
+constexpr double path_tolerance = 1e-4;    ///< of equilibria on the way
+constexpr int most_newton = 12;            ///< steps before the load is divided
+constexpr int easy_newton = 5;             ///< so few: the next step of the load may be twice as long
+constexpr double least_load_step = 1e-4;
 
 /// One search. Vectors have six numbers a place; forces hold reactions (with their sign turned) where
 /// components are held.
@@ -38,134 +39,150 @@ class Search {
  public:
   Search(Simulation& sim, const EquilibriumPlan& plan)
       : sim_(sim),
-        model_(sim.model),
         plan_(plan),
-        places_(model_, block_size(model_)),
-        points_(model_, places_),
-        blocks_(model_, places_),
-        x_(6 * places_.size()),
-        r_(x_.size()),
-        z_(x_.size()),
-        p_(x_.size()),
-        q_(x_.size()) {}
+        full_load_(norm(sim.loads, sim.model, sim.model.time)),
+        model_(sim, block_size(sim.model)),
+        prescribed_(model_.prescribed()),
+        r_(prescribed_.size()),
+        z_(r_.size()),
+        p_(r_.size()),
+        q_(r_.size()),
+        d_(r_.size()) {}
 
   Equilibrium run() {
-    swap_velocities();
-    prescribe();
-    double before = std::numeric_limits<double>::infinity();
-    for (;;) {  // the residual that iterations carry along drifts by rounding: begin anew until it is true
-      find_residual();
-      if (found_.residual <= plan_.tolerance) break;
-      if (!(found_.residual < 0.5 * before)) stall();
-      before = found_.residual;
-      if (!goes_on() || !iterate()) break;
-    }
-    places_.put(x_, model_);
-    swap_velocities();
+    if (std::string refused = model_.refusal(prescribed_); !refused.empty())
+      return {Equilibrium::End::failed, std::move(refused), 0, 0};
+    StaticModel::State reached = model_.state();
+    if (model_.turns())
+      follow_load(reached);
+    else if (settle(0, 1))
+      reached = model_.state();
+    model_.back_to(std::move(reached));
     return found_;
   }
 
  private:
-  /// The lattice kernel leaves forces in the velocities: take those that nobody reads for it.
-  void swap_velocities() {
-    for (Lattice& lattice : model_.lattices) std::swap(lattice.velocity, lattice.velocity_before);
+  /// Loads and prescribed displacements grow in proportion, in steps as long as Newton's method bears.
+  void follow_load(StaticModel::State& reached) {
+    double factor = 0, step = 1;
+    while (factor < 1) {
+      const double next = std::min(1.0, factor + step);
+      newton_ = 0;
+      if (settle(factor, next)) {
+        factor = next, reached = model_.state();
+        if (newton_ <= easy_newton) step *= 2;
+      } else if (found_.end != Equilibrium::End::found) {
+        return;
+      } else {
+        step = (next - factor) / 4;
+        if (step < least_load_step) return lose(factor);
+        model_.back_to(reached);
+      }
+    }
+    if (found_.end == Equilibrium::End::found && !is_stable()) say_unstable();
   }
 
-  void prescribe() {
-    for (const HeldComponent& h : sim_.supports.held) {
-      const std::int32_t k = h.lattice < 0 ? places_.of_node(h.place) : places_.of_site(h.lattice, h.place);
-      x_[6 * k + h.component] = sim_.supports.motions[h.motion].displacement(model_.time);
+  /// Newton's method: from equilibrium at one factor of loads and prescribed displacements to that at another.
+  /// Linear problems take one step, or more where rounding lets the residual that iterations carry drift.
+  bool settle(double from, double to) {
+    const double tolerance = to < 1 ? std::max(plan_.tolerance, path_tolerance) : plan_.tolerance;
+    double before = std::numeric_limits<double>::infinity();
+    load_ = to * full_load_, lost_stiffness_ = false;
+    for (;; ++newton_) {
+      model_.residual(to, r_);
+      if (newton_ == 0 || model_.turns()) set_up_preconditioner();
+      lift(newton_ == 0 ? to - from : 0);
+      measure();
+      if (found_.residual <= tolerance) return true;
+      const bool stalls = !(found_.residual < 0.5 * before);
+      if (stalls && (!model_.turns() || found_.residual < 1e-6)) say_stalled();
+      if (model_.turns() && (newton_ == most_newton || !std::isfinite(found_.residual))) return false;
+      if (!goes_on()) return false;
+      before = found_.residual;
+      const double wanted = model_.turns() ? linear_tolerance * found_.residual : 0;
+      if (!solve(std::max(0.5 * tolerance, wanted)) && !model_.turns()) return false;
+      model_.move(d_);
     }
   }
 
-  /// −K x into mesh.f, velocities of unit kicks and listed forces: the kernels of a step.
-  void find_forces(const PlaceVector& x) {
-    places_.put(x, model_);
-    fe::internal_forces(model_.mesh);
-    const de::Kick unit{.keep = 0, .per_mass = 1, .per_inertia = 1, .gravity = {}};
-    for (Lattice& lattice : model_.lattices) de::bond_forces_and_kick(lattice, unit);
-    gather_internal_forces(model_.mesh);
-    sim_.reactions.add(model_);
+  void set_up_preconditioner() {
+    points_.emplace(sim_.model, model_.places());
+    blocks_.emplace(sim_.model, model_.places());
   }
 
-  /// r = f − K x.
-  void find_residual() {
-    find_forces(x_);
-    add_loads(sim_.loads, model_, model_.time);
-    places_.take(model_, r_);
-    const Vec3 g = gravity(sim_.loads, model_.time);
-    for_each(places_.size(), [this, g](std::size_t k) {
-      for (int c = 0; c < 3; ++c) r_[6 * k + c] += mass(k) * g[c];
-    });
-    load_ = norm(sim_.loads, model_, model_.time);
-    measure();
+  /// d = share · prescribed displacements, r −= K d.
+  void lift(double share) {
+    bool moves = false;
+    for (std::size_t i = 0; i < d_.size(); ++i) moves = (d_[i] = share * prescribed_[i]) != 0 || moves;
+    if (!moves) return;
+    model_.tangent(d_, q_);
+    for (std::size_t i = 0; i < d_.size(); ++i) r_[i] += q_[i];
   }
 
-  /// Of what carries loads: not of ghosts.
-  double mass(std::size_t k) const {
-    const Place& place = places_[k];
-    if (place.lattice < 0) return model_.mesh.mass[place.index];
-    const Lattice& lattice = model_.lattices[place.lattice];
-    return lattice.is(place.index, site::particle) ? lattice.mass : 0;
-  }
-
-  /// As Simulation::residual().
   void measure() {
-    const Norms norms = sum<Norms>(places_.size(), [this](std::size_t k) {
-      const Place& place = places_[k];
-      const double arm = place.lattice < 0 ? 1 : model_.lattices[place.lattice].radius();
-      Norms n;
-      for (int c = 0; c < 6; ++c) {
-        const double f = c < 3 ? r_[6 * k + c] : r_[6 * k + c] / arm;
-        if (place.free >> c & 1) n.free += f * f;
-        if (c < 3 && place.held >> c & 1) n.held += f * f;
-      }
-      return n;
-    });
-    const double scale = std::max(load_, std::sqrt(norms.held));
-    found_.residual = scale > 0 ? std::sqrt(norms.free) / scale : std::sqrt(norms.free);
+    const StaticModel::Norms norms = model_.norms(r_);
+    const double scale = std::max(load_, norms.held);
+    found_.residual = scale > 0 ? norms.free / scale : norms.free;
   }
 
-  /// Conjugate gradients from x on; whether the residual got small.
-  bool iterate() {
+  /// K d = r by conjugate gradients, beginning with the d that r knows of; whether the residual got small.
+  /// Where a direction has no positive stiffness they end; what they have so far leads downhill.
+  bool solve(double wanted) {
     double rz = precondition();
     p_ = z_;
     for (;;) {
-      find_forces(p_);
-      places_.take(model_, q_);  // −K p
+      model_.tangent(p_, q_);
       const double stiffness = -dot(p_, q_);
-      if (!(stiffness > 0) || !std::isfinite(stiffness)) return fail();
+      if (!(stiffness > 0) || !std::isfinite(stiffness)) return say_loose();
       advance(rz / stiffness);
       ++found_.iterations;
       measure();
       if (plan_.progress) plan_.progress(found_.iterations, found_.residual);
-      if (found_.residual <= 0.5 * plan_.tolerance) return true;
+      if (found_.residual <= wanted) return true;
       if (!goes_on()) return false;
       const double before = std::exchange(rz, precondition());
       turn(rz / before);
     }
   }
 
+  /// Whether K has no negative stiffness at the state found: conjugate gradients meet it if there is one and
+  /// the right side is blind to nothing. Numbers that follow no pattern, smoothed by the preconditioner so
+  /// that slow motions count as much as fast ones, times K.
+  bool is_stable() {
+    model_.residual(1, r_);
+    set_up_preconditioner();
+    for (std::size_t i = 0; i < r_.size(); ++i) r_[i] = std::fmod(0.6180339887498949 * (i + 1.0), 1) - 0.5;
+    precondition();
+    model_.tangent(z_, r_);
+    std::fill(d_.begin(), d_.end(), 0.0);
+    const double residual = found_.residual;
+    measure();
+    lost_stiffness_ = false;
+    solve(linear_tolerance * found_.residual);
+    found_.residual = residual;
+    return !lost_stiffness_;
+  }
+
   /// z = M⁻¹ r; returns r·z.
   double precondition() {
-    points_.solve(r_, z_);
-    blocks_.add_solution(r_, z_);
+    points_->solve(r_, z_);
+    blocks_->add_solution(r_, z_);
     return dot(r_, z_);
   }
 
   double dot(const PlaceVector& a, const PlaceVector& b) const {
-    return sum<double>(places_.size(), [a = a.data(), b = b.data()](std::size_t k) {
+    return sum<double>(a.size() / 6, [a = a.data(), b = b.data()](std::size_t k) {
       double s = 0;
       for (std::size_t i = 6 * k; i < 6 * k + 6; ++i) s = fma(a[i], b[i], s);
       return s;
     });
   }
-  /// x += α p, r −= α K p.
+  /// d += α p, r −= α K p.
   void advance(double alpha) {
     for_each(
-        x_.size(),
+        d_.size(),
         [this, alpha](std::size_t i) {
-          x_[i] = fma(alpha, p_[i], x_[i]);
+          d_[i] = fma(alpha, p_[i], d_[i]);
           r_[i] = fma(alpha, q_[i], r_[i]);
         },
         10'000);
@@ -188,14 +205,18 @@ class Search {
     }
     return false;
   }
-  void stall() { give_up("; rounding allows no better"); }
   void give_up(const char* why) {
     found_.end = Equilibrium::End::not_converged;
     found_.message =
         fmt::format("no equilibrium after {} iterations: the residual is {:.2g} of the load, wanted {:.2g}{}",
                     found_.iterations, found_.residual, plan_.tolerance, why);
   }
-  bool fail() {
+  void say_stalled() { give_up("; rounding allows no better"); }
+
+  /// With finite rotations the load may have gone too far at once.
+  bool say_loose() {
+    lost_stiffness_ = true;
+    if (model_.turns()) return false;
     found_.end = Equilibrium::End::failed;
     found_.message = fmt::format(
         "no equilibrium: after {} iterations there is a motion that nothing resists; is a part "
@@ -204,14 +225,35 @@ class Search {
     return false;
   }
 
+  void lose(double factor) {
+    found_.end = Equilibrium::End::not_converged;
+    found_.message = fmt::format(
+        "no equilibrium beyond {:.3g} of the loads and prescribed displacements, after {} iterations: {}; "
+        "type = \"quasi-static\" shows where the body goes",
+        factor, found_.iterations,
+        lost_stiffness_ ? "nothing resists some motion there: the body buckles or snaps through, or a part "
+                          "is hinged"
+                        : "Newton's method does not converge; is an element strained too far?");
+  }
+
+  void say_unstable() {
+    found_.end = Equilibrium::End::not_converged;
+    found_.message =
+        "the equilibrium found is not stable: the body buckles before its full load; a small load across "
+        "shows where it goes";
+  }
+
   Simulation& sim_;
-  Model& model_;
   const EquilibriumPlan& plan_;
-  const Places places_;
-  const PointBlocks points_;
-  const RigidBlocks blocks_;
-  PlaceVector x_, r_, z_, p_, q_;
-  double load_ = 0;
+  const double full_load_;
+  double load_ = 0;  ///< norm of the loads at the present factor
+  StaticModel model_;
+  std::optional<PointBlocks> points_;
+  std::optional<RigidBlocks> blocks_;
+  const PlaceVector prescribed_;
+  PlaceVector r_, z_, p_, q_, d_;  ///< d: the step that is looked for
+  int newton_ = 0;
+  bool lost_stiffness_ = false;  ///< whether the present step met a direction without stiffness
   Equilibrium found_;
 };
 

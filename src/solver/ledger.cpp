@@ -77,12 +77,6 @@ double lattice_residual(const Lattice& lattice, Imbalance imbalance) {
   return squares;
 }
 
-bool turns_finitely(const Model& model) {
-  return model.mesh.kinematics == Kinematics::finite ||
-         std::any_of(model.lattices.begin(), model.lattices.end(),
-                     [](const Lattice& l) { return l.kinematics == Kinematics::finite; });
-}
-
 }  // namespace
 
 Ledger Simulation::ledger() {

@@ -97,7 +97,9 @@ void Places::put(const PlaceVector& x, Model& model) const {
       size(),
       [this, &model, from = x.data()](std::size_t k) {
         const Place& place = all_[k];
-        const int components = place.free | place.held;
+        int components = place.free | place.held;
+        if (place.lattice >= 0 && model.lattices[place.lattice].kinematics == Kinematics::finite)
+          components &= 0b000111;
         for (int c = 0; c < 6; ++c)
           if (components >> c & 1)
             (place.lattice < 0 ? model.mesh.u[c] : model.lattices[place.lattice].motion[c])[place.index] =

@@ -35,7 +35,8 @@ class Places {
   std::int32_t of_node(std::size_t i) const { return of_node_[i]; }
   std::int32_t of_site(std::size_t lattice, std::size_t s) const { return of_site_[lattice][s]; }
 
-  /// Free and prescribed components of x become the model's displacement; ghosts follow their nodes.
+  /// Free and prescribed components of x become the model's displacement, and rotation where rotations are
+  /// small; ghosts follow their nodes.
   void put(const PlaceVector& x, Model& model) const;
 
   /// Forces of elements and bonds as the kernels leave them (mesh.f, the listed forces, and of free particles

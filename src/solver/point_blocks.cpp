@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 #include "de/stiffness.hpp"
 #include "fe/stiffness.hpp"
+#include "solver/axes.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -33,6 +34,16 @@ void multiply(const Eigen::Matrix<double, N, N>& A, const double* x, double* y) 
     for (int c = 0; c < N; ++c) y[c] = fma(A(c, d), x[d], y[c]);
 }
 
+/// y = R A Rᵀ x, R turning displacement and rotation alike.
+void multiply_turned(const Eigen::Matrix<double, 6, 6>& A, const Eigen::Matrix3d& R, const double* x,
+                     double* y) {
+  using Two = Eigen::Matrix<double, 3, 2>;
+  Eigen::Matrix<double, 6, 1> in, out;
+  Eigen::Map<Two>(in.data()) = R.transpose().lazyProduct(Eigen::Map<const Two>(x));
+  multiply<6>(A, in.data(), out.data());
+  Eigen::Map<Two>{y} = R.lazyProduct(Eigen::Map<Two>(out.data()));
+}
+
 /// Stiffness of a site's bonds against its own motion.
 de::Matrix6 own_stiffness(const de::BondMatrices& bonds, const Lattice& lattice, std::size_t s) {
   de::Matrix6 K = de::Matrix6::Zero();
@@ -58,7 +69,9 @@ void PointBlocks::add_elements(const Model& model, const Places& places) {
   const Mesh& mesh = model.mesh;
   for (std::size_t i = 0; i < mesh.nodes(); ++i) of_place_[places.of_node(i)] = static_cast<std::int32_t>(i);
   const auto add = [&](std::size_t e, const fe::Matrix24& K) {
-    for (int a = 0; a < 8; ++a) nodes_[mesh.elements[e][a]] += K.block<3, 3>(3 * a, 3 * a);
+    const Eigen::Matrix3d R = element_axes(mesh, e);
+    for (int a = 0; a < 8; ++a)
+      nodes_[mesh.elements[e][a]] += R * K.block<3, 3>(3 * a, 3 * a) * R.transpose();
   };
   fe::visit_stiffness(
       mesh, [](std::size_t) { return true; }, add);
@@ -76,11 +89,21 @@ void PointBlocks::add_lattice(const Lattice& lattice, std::int32_t l, const Plac
         {lattice.word[s] & site::bonds, bonds.law_of(s), static_cast<std::uint32_t>(free)}, index);
     if (is_new) sites_.push_back(inverse_over<6>(own_stiffness(bonds, lattice, s), free));
     of_place_[k] = -1 - it->second;
+    if (lattice.kinematics == Kinematics::finite) turn(static_cast<std::size_t>(k), free, bond_axes(lattice, s, s));
   }
   for (const Ghost& ghost : lattice.ghosts) {
-    const Eigen::Matrix3d K = own_stiffness(bonds, lattice, ghost.site).topLeftCorner<3, 3>();
+    const Eigen::Matrix3d R = bond_axes(lattice, ghost.site, ghost.site),
+                          K = R * own_stiffness(bonds, lattice, ghost.site).topLeftCorner<3, 3>() *
+                              R.transpose();
     for (const GhostNode& I : ghost.nodes) nodes_[I.node] += I.N * I.N * K;
   }
+}
+
+/// Where a support holds some directions but not all, axes stay.
+void PointBlocks::turn(std::size_t k, int free, const Eigen::Matrix3d& R) {
+  if (axes_.empty()) axes_.assign(places_, Eigen::Matrix3d::Identity());
+  const auto all_or_none = [](int three) { return three == 0b111 || three == 0; };
+  if (all_or_none(free & 0b111) && all_or_none(free >> 3)) axes_[k] = R;
 }
 
 void PointBlocks::solve(const PlaceVector& r, PlaceVector& z) const {
@@ -90,8 +113,10 @@ void PointBlocks::solve(const PlaceVector& r, PlaceVector& z) const {
         const std::int32_t i = of_place_[k];
         if (i >= 0)
           multiply<3>(nodes_[i], from + 6 * k, to + 6 * k);
-        else
+        else if (axes_.empty())
           multiply<6>(sites_[-1 - i], from + 6 * k, to + 6 * k);
+        else
+          multiply_turned(sites_[-1 - i], axes_[k], from + 6 * k, to + 6 * k);
       },
       1000);
 }

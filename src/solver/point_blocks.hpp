@@ -1,4 +1,5 @@
-// Point blocks: every place's own stiffness, inverted. The local part of the statics' preconditioner.
+// Point blocks: every place's own stiffness, inverted. The local part of the statics' preconditioner. With
+// finite rotations it is turned as the body is (axes.hpp).
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -19,11 +20,13 @@ class PointBlocks {
 
   void add_elements(const Model& model, const Places& places);
   void add_lattice(const Lattice& lattice, std::int32_t l, const Places& places);
+  void turn(std::size_t k, int free, const Eigen::Matrix3d& R);
 
   std::size_t places_;
   std::vector<std::int32_t> of_place_;  ///< index into nodes_, or −1 − index into sites_
   std::vector<Eigen::Matrix3d> nodes_;
-  std::vector<Matrix6> sites_;  ///< sites with the same bonds and supports share one
+  std::vector<Matrix6> sites_;  ///< sites with the same bonds and supports share one, in their own axes
+  std::vector<Eigen::Matrix3d> axes_;  ///< of places, where sites turn
 };
 
 }  // namespace geist

@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "de/stiffness.hpp"
 #include "fe/stiffness.hpp"
+#include "solver/axes.hpp"
 
 namespace geist {
 namespace {
@@ -54,8 +55,8 @@ class BlockMatrix {
 /// Assembles what resists when blocks move rigidly.
 class Assembly {
  public:
-  Assembly(const Model& model, const Places& places, const std::vector<Vec3>& centre)
-      : model_(model), places_(places), centre_(centre), sum_(places.blocks()) {}
+  Assembly(const Model& model, const Places& places, const std::vector<Vec3>& arm)
+      : model_(model), places_(places), arm_(arm), sum_(places.blocks()) {}
 
   Eigen::SparseMatrix<double> matrix() {
     add_elements();
@@ -67,7 +68,7 @@ class Assembly {
   /// Of a place, (u, θ) from its block's motion (translation, rotation); rows that are not free are zero.
   Matrix6 motion(std::size_t k) const {
     const Place& place = places_[k];
-    const Vec3 x = place.X - centre_[places_.block_of(k)];
+    const Vec3 x = arm_[k];
     Matrix6 S = Matrix6::Identity();
     S.topRightCorner<3, 3>() << 0, x.z, -x.y, -x.z, 0, x.x, x.y, -x.x, 0;
     for (int c = 0; c < 6; ++c)
@@ -92,16 +93,17 @@ class Assembly {
       });
     };
     fe::visit_stiffness(model_.mesh, is_deformed, [this, &elements](std::size_t e, const fe::Matrix24& K) {
-      add_element(elements[e], K);
+      add_element(elements[e], K, element_axes(model_.mesh, e));
     });
   }
 
-  void add_element(const std::array<std::int32_t, 8>& nodes, const fe::Matrix24& K) {
+  void add_element(const std::array<std::int32_t, 8>& nodes, const fe::Matrix24& K,
+                   const Eigen::Matrix3d& R) {
     std::array<std::int32_t, 8> block;
     std::array<Matrix36, 8> S;
     for (int a = 0; a < 8; ++a) {
       const std::int32_t k = places_.of_node(nodes[a]);
-      block[a] = places_.block_of(k), S[a] = motion(k).topRows<3>();
+      block[a] = places_.block_of(k), S[a] = R.transpose().lazyProduct(motion(k).topRows<3>());
     }
     for (int b = 0; b < 8; ++b) {
       if (std::find(block.begin(), block.begin() + b, block[b]) != block.begin() + b) continue;
@@ -141,10 +143,18 @@ class Assembly {
             moves_rigidly(j, 0b111111))
           continue;
         strain.by_block.clear();
-        add_end(lattice, i, ghost_at[s], bonds.strain(d).B_i, strain);
-        add_end(lattice, j, ghost_at[t], bonds.strain(d).B_j, strain);
+        const Matrix6 axes = in_both(bond_axes(lattice, s, t).transpose());
+        add_end(lattice, i, ghost_at[s], bonds.strain(d).B_i.lazyProduct(axes), strain);
+        add_end(lattice, j, ghost_at[t], bonds.strain(d).B_j.lazyProduct(axes), strain);
         add_energy(strain, bonds.stiffness(s, d));
       }
+  }
+
+  /// For displacement and rotation.
+  static Matrix6 in_both(const Eigen::Matrix3d& R) {
+    Matrix6 A = Matrix6::Zero();
+    A.topLeftCorner<3, 3>() = R, A.bottomRightCorner<3, 3>() = R;
+    return A;
   }
 
   /// What a bond's end at place k adds to its strain.
@@ -153,10 +163,11 @@ class Assembly {
     strain.add(places_.block_of(k), B.lazyProduct(motion(k)));
     if (!ghost) return;
     const bool turn = lattice.ghost_rotation == GhostRotation::continuum;
+    const Eigen::Matrix3d R = bond_axes(lattice, ghost->site, ghost->site);
     for (const GhostNode& I : ghost->nodes) {
       const std::int32_t node = places_.of_node(I.node);
       Eigen::Matrix<double, 6, 3> B_I = I.N * B.leftCols<3>();
-      if (turn) B_I += B.rightCols<3>().lazyProduct(half_cross(I.gradient));
+      if (turn) B_I += B.rightCols<3>().lazyProduct(R * half_cross(I.gradient) * R.transpose());
       strain.add(places_.block_of(node), B_I.lazyProduct(motion(node).topRows<3>()));
     }
   }
@@ -171,17 +182,21 @@ class Assembly {
 
   const Model& model_;
   const Places& places_;
-  const std::vector<Vec3>& centre_;
+  const std::vector<Vec3>& arm_;
   BlockMatrix sum_;
 };
 
-std::vector<Vec3> centres(const Places& places) {
-  std::vector<Vec3> centre(places.blocks());
+/// From the centre of each place's block to the place.
+std::vector<Vec3> arms(const Model& model, const Places& places) {
+  std::vector<Vec3> arm(places.size());
   for (std::size_t b = 0; b < places.blocks(); ++b) {
-    for (std::size_t k = places.begin(b); k < places.begin(b + 1); ++k) centre[b] += places[k].X;
-    centre[b] *= 1 / static_cast<double>(places.begin(b + 1) - places.begin(b));
+    Vec3 centre;
+    for (std::size_t k = places.begin(b); k < places.begin(b + 1); ++k)
+      centre += arm[k] = position(model, places[k]);
+    centre *= 1 / static_cast<double>(places.begin(b + 1) - places.begin(b));
+    for (std::size_t k = places.begin(b); k < places.begin(b + 1); ++k) arm[k] -= centre;
   }
-  return centre;
+  return arm;
 }
 
 /// Blocks of a few places do not resist every rotation: a little stiffness where there is none.
@@ -196,8 +211,8 @@ void stiffen(Eigen::SparseMatrix<double>& A) {
 }  // namespace
 
 RigidBlocks::RigidBlocks(const Model& model, const Places& places)
-    : places_(places), centre_(centres(places)) {
-  Eigen::SparseMatrix<double> A = Assembly(model, places, centre_).matrix();
+    : places_(places), arm_(arms(model, places)) {
+  Eigen::SparseMatrix<double> A = Assembly(model, places, arm_).matrix();
   stiffen(A);
   cholesky_.compute(A);
 }
@@ -219,7 +234,7 @@ void RigidBlocks::restrict_to_blocks(const PlaceVector& r, Eigen::VectorXd& b) c
           for (int c = 0; c < 6; ++c) f[c] = places_[k].free >> c & 1 ? from[6 * k + c] : 0;
           const Vec3 F{f[0], f[1], f[2]};
           force += F;
-          moment += cross(places_[k].X - centre_[block], F) + Vec3{f[3], f[4], f[5]};
+          moment += cross(arm_[k], F) + Vec3{f[3], f[4], f[5]};
         }
         for (int c = 0; c < 3; ++c) to[6 * block + c] = force[c], to[6 * block + 3 + c] = moment[c];
       },
@@ -233,7 +248,7 @@ void RigidBlocks::add_motion(const Eigen::VectorXd& motion, PlaceVector& z) cons
         const double* m = from + 6 * block;
         const Vec3 translation{m[0], m[1], m[2]}, rotation{m[3], m[4], m[5]};
         for (std::size_t k = places_.begin(block); k < places_.begin(block + 1); ++k) {
-          const Vec3 u = translation + cross(rotation, places_[k].X - centre_[block]);
+          const Vec3 u = translation + cross(rotation, arm_[k]);
           for (int c = 0; c < 3; ++c) {
             if (places_[k].free >> c & 1) to[6 * k + c] += u[c];
             if (places_[k].free >> (3 + c) & 1) to[6 * k + 3 + c] += rotation[c];

@@ -1,5 +1,6 @@
 // Rigid blocks: the coarse part of the statics' preconditioner. Every block of places moves as a rigid body,
-// and what lies between the blocks resists: a small stiffness matrix, factorised once.
+// and what lies between the blocks resists: a small stiffness matrix, factorised once. With finite rotations
+// blocks are where they are now, and what lies between them is turned (axes.hpp).
 #pragma once
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
@@ -21,7 +22,7 @@ class RigidBlocks {
   void add_motion(const Eigen::VectorXd& motion, PlaceVector& z) const;
 
   const Places& places_;
-  std::vector<Vec3> centre_;  ///< of each block: its motion is a translation and a rotation about it
+  std::vector<Vec3> arm_;  ///< of each place, from its block's centre, about which the block rotates
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky_;
 };
 

@@ -89,6 +89,10 @@ void Simulation::start() {
 void Simulation::start_loaded() {
   start();
   initial_energy_ = 0;
+  if (turns_finitely(model)) {
+    supports.work = ledger().internal();  // the ledger asks for the sum alone
+    return;
+  }
   reckon_proportional(loads, model);
   supports.reckon_proportional(model);
 }

@@ -32,7 +32,8 @@ class Simulation {
   void start();
 
   /// start() where the model has been brought to equilibrium: its energy and the work of loads and supports
-  /// are those of all of them growing in proportion from nothing, ½ f·u. Everything is at rest.
+  /// are those of all of them growing in proportion from nothing, ½ f·u. Everything is at rest. With finite
+  /// rotations the path is not straight: what loads and supports do along equilibria is what is stored.
   void start_loaded();
 
   /// One step. If `observe`, the velocity at t^n is kept for ledger(), residual() and the writers.
