@@ -88,7 +88,8 @@ Table supports_table() {
 Table displacement_table() {
   return {"displacement",
           "{ x = …, y = …, z = …, rx = …, ry = …, rz = … }",
-          "Components of a prescribed displacement; those not named are free.",
+          "Components of a prescribed displacement; those not named are free. A static analysis with "
+          "kinematics = \"finite\" wants all three rotations prescribed or fixed, or none prescribed.",
           components("length", "radians"),
           {{false, {"x", "y", "z", "rx", "ry", "rz"}}}};
 }

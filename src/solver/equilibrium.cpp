@@ -82,8 +82,9 @@ class Search {
     if (found_.end == Equilibrium::End::found && !is_stable()) say_unstable();
   }
 
-  /// Newton's method: from equilibrium at one factor of loads and prescribed displacements to that at another.
-  /// Linear problems take one step, or more where rounding lets the residual that iterations carry drift.
+  /// Newton's method: from equilibrium at one factor of loads and prescribed displacements to that at
+  /// another. Linear problems take one step, or more where rounding lets the residual that iterations carry
+  /// drift.
   bool settle(double from, double to) {
     const double tolerance = to < 1 ? std::max(plan_.tolerance, path_tolerance) : plan_.tolerance;
     double before = std::numeric_limits<double>::infinity();

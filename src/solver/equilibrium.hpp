@@ -2,8 +2,8 @@
 //
 // Preconditioned conjugate gradients. K is never assembled: K p is what the kernels of a step make of the
 // displacement p. With finite rotations Newton's method asks for such solutions, K being the tangent at the
-// present state, and loads grow in steps. The preconditioner adds two corrections: every place moves against its own stiffness alone
-// (point_blocks.hpp), and blocks of places move as rigid bodies (rigid_blocks.hpp).
+// present state, and loads grow in steps. The preconditioner adds two corrections: every place moves against
+// its own stiffness alone (point_blocks.hpp), and blocks of places move as rigid bodies (rigid_blocks.hpp).
 #pragma once
 #include <csignal>
 #include <functional>

@@ -89,7 +89,8 @@ void PointBlocks::add_lattice(const Lattice& lattice, std::int32_t l, const Plac
         {lattice.word[s] & site::bonds, bonds.law_of(s), static_cast<std::uint32_t>(free)}, index);
     if (is_new) sites_.push_back(inverse_over<6>(own_stiffness(bonds, lattice, s), free));
     of_place_[k] = -1 - it->second;
-    if (lattice.kinematics == Kinematics::finite) turn(static_cast<std::size_t>(k), free, bond_axes(lattice, s, s));
+    if (lattice.kinematics == Kinematics::finite)
+      turn(static_cast<std::size_t>(k), free, bond_axes(lattice, s, s));
   }
   for (const Ghost& ghost : lattice.ghosts) {
     const Eigen::Matrix3d R = bond_axes(lattice, ghost.site, ghost.site),

@@ -202,9 +202,11 @@ void StaticModel::turn(Lattice& lattice, std::int32_t l, const PlaceVector& p, d
 
 /// Largest displacement by that length, or rotation of lattices with finite ones.
 double StaticModel::largest(const PlaceVector& p, double length) const {
-  return sum<Largest>(places_.size(), [this, &p, length](std::size_t k) {
-           return Largest{std::max(norm(part(p, k, 0)) / length, norm(part(p, k, 3)))};
-         }).value;
+  return sum<Largest>(places_.size(),
+                      [this, &p, length](std::size_t k) {
+                        return Largest{std::max(norm(part(p, k, 0)) / length, norm(part(p, k, 3)))};
+                      })
+      .value;
 }
 
 void StaticModel::find_forces(PlaceVector& f) {

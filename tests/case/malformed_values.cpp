@@ -412,20 +412,6 @@ constexpr Malformed rules[] = {
      36,
      14,
      {"'kinematics' must be \"small\" or \"finite\", not \"large\""}},
-    {"FiniteStatic",
-     "",
-     "units = { length = \"mm\", mass = \"g\", time = \"ms\" }\n"
-     "materials.m = { density = 0.001, young = 1000, poisson = 0.2 }\n"
-     "regions.r = { type = \"hexahedra\", material = \"m\", box = [[0, 0, 0], [2, 2, 2]], divisions = [1, 1, "
-     "1] }\n"
-     "supports = [{ where = { x = 0 }, fix = [\"x\", \"y\", \"z\"] }]\n"
-     "loads = [{ gravity = [0, 0, -1] }]\n"
-     "[analysis]\n"
-     "type = \"static\"\n"
-     "kinematics = \"finite\"\n",
-     8,
-     14,
-     {"equilibrium is solved for with small displacements", "type = \"quasi-static\" finds it"}},
 };
 
 constexpr Malformed sets[] = {

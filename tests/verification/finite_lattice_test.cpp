@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 #include "core/parallel.hpp"
 #include "de/rotation.hpp"
+#include "verification/elastica.hpp"
 #include "verification/support.hpp"
 
 namespace geist::verification {
@@ -125,50 +125,6 @@ TEST_P(SpinningBlock, KeepsEnergyAndMomentaWhileItVibrates) {
   EXPECT_LT(record.linear, 10 * record.roundings());
   EXPECT_LT(record.angular, 10 * record.roundings());
   EXPECT_NEAR(ten_turns(GetParam(), hit, 0.45).balance / record.balance, 0.25, 0.1);
-}
-
-/// Slope and place of the tip of a beam of length 1, clamped along x, under a dead load across of a times EI.
-struct Elastica {
-  double slope, along, across;
-};
-
-/// The elastica from the clamp on, θ'' = −a cos θ, with θ'(0) = curvature: Runge and Kutta's 4th order.
-/// Returns θ'(1) beside the tip.
-std::pair<double, Elastica> shoot(double a, double curvature) {
-  using State = std::array<double, 4>;  // θ, θ', x, z
-  const auto rate = [a](const State& y) {
-    return State{y[1], -a * std::cos(y[0]), std::cos(y[0]), std::sin(y[0])};
-  };
-  const auto plus = [](State y, double h, const State& k) {
-    for (std::size_t c = 0; c < 4; ++c) y[c] += h * k[c];
-    return y;
-  };
-  State y{0, curvature, 0, 0};
-  constexpr int n = 1000;
-  for (int i = 0; i < n; ++i) {
-    const double h = 1.0 / n;
-    const State k1 = rate(y), k2 = rate(plus(y, h / 2, k1)), k3 = rate(plus(y, h / 2, k2)),
-                k4 = rate(plus(y, h, k3));
-    y = plus(plus(plus(plus(y, h / 6, k1), h / 3, k2), h / 3, k3), h / 6, k4);
-  }
-  return {y[1], {y[0], y[2], y[3]}};
-}
-
-/// No moment at the tip.
-Elastica elastica(double a) {
-  double low = 0, high = a;
-  for (int n = 0; n < 60; ++n) {
-    const double middle = (low + high) / 2;
-    (shoot(a, middle).first > 0 ? high : low) = middle;
-  }
-  return shoot(a, low).second;
-}
-
-/// The load that bends it to that slope.
-double load_to(double slope) {
-  double low = 0, high = 10;
-  for (int n = 0; n < 60; ++n) (elastica((low + high) / 2).slope > slope ? high : low) = (low + high) / 2;
-  return low;
 }
 
 /// Place and slope of the tip of n × 1 × 1 or n × 2 × 2 particles under a load, by relaxation.
