@@ -55,8 +55,8 @@ class Search {
     StaticModel::State reached = model_.state();
     if (model_.turns())
       follow_load(reached);
-    else if (settle(0, 1))
-      reached = model_.state();
+    else
+      settle(0, 1), reached = model_.state();
     model_.back_to(std::move(reached));
     return found_;
   }
@@ -91,7 +91,6 @@ class Search {
     load_ = to * full_load_, lost_stiffness_ = false;
     for (;; ++newton_) {
       model_.residual(to, r_);
-      if (newton_ == 0 || model_.turns()) set_up_preconditioner();
       lift(newton_ == 0 ? to - from : 0);
       measure();
       if (found_.residual <= tolerance) return true;
@@ -101,12 +100,15 @@ class Search {
       if (!goes_on()) return false;
       before = found_.residual;
       const double wanted = model_.turns() ? linear_tolerance * found_.residual : 0;
-      if (!solve(std::max(0.5 * tolerance, wanted)) && !model_.turns()) return false;
+      if (newton_ == 0 || model_.turns()) set_up_preconditioner();
+      const bool solved = solve(std::max(0.5 * tolerance, wanted));
       model_.move(d_);
+      if (!solved && !model_.turns()) return false;
     }
   }
 
   void set_up_preconditioner() {
+    model_.show();
     points_.emplace(sim_.model, model_.places());
     blocks_.emplace(sim_.model, model_.places());
   }

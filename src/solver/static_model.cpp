@@ -103,10 +103,7 @@ std::string StaticModel::refusal(const PlaceVector& prescribed) const {
 }
 
 void StaticModel::residual(double factor, PlaceVector& r) {
-  if (turns_)
-    show(x_, 0);
-  else
-    places_.put(x_, model_);
+  show();
   find_forces(internal_);
   for_each(
       r.size(), [=, this, r = r.data()](std::size_t i) { r[i] = fma(factor, load_[i], internal_[i]); },
@@ -163,6 +160,10 @@ void StaticModel::back_to(State state) {
   x_ = std::move(state.x), rotation_ = std::move(state.rotation);
   for (Lattice& lattice : model_.lattices)  // kicks forget numbers only
     for (int c = 0; c < 6; ++c) std::fill_n(lattice.velocity[c], lattice.velocity.size(), 0.0);
+  show();
+}
+
+void StaticModel::show() {
   if (turns_)
     show(x_, 0);
   else

@@ -32,6 +32,9 @@ class StaticModel {
   /// Move by p: displacements add, rotations R ← exp(p×) R.
   void move(const PlaceVector& p);
 
+  /// Let the simulation's model have the present state; tangent() leaves it somewhere near.
+  void show();
+
   /// A state to come back to.
   struct State {
     PlaceVector x, rotation;
