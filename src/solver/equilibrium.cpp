@@ -158,11 +158,11 @@ class Search {
     precondition();
     model_.tangent(z_, r_);
     std::fill(d_.begin(), d_.end(), 0.0);
-    const double residual = found_.residual;
+    const Equilibrium found = found_;
     measure();
     lost_stiffness_ = false;
     solve(linear_tolerance * found_.residual);
-    found_.residual = residual;
+    found_.end = found.end, found_.message = found.message, found_.residual = found.residual;
     return !lost_stiffness_;
   }
 
