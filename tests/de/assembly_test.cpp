@@ -408,15 +408,17 @@ std::string refusal(const Place& n, double poisson) {
 }
 
 TEST(ConsistentLattice, RefusesNegativeStiffness) {
-  // Cells: sides need μ ≥ λ, ν ≤ ¼, and diagonals λ ≥ 0. Sheets: k_n2 and k_s1.
+  // Diagonals need λ ≥ 0; what sides cannot carry above ¼ cells and skins do.
   EXPECT_EQ(refusal({4, 4, 4}, 0.25), "");
   EXPECT_EQ(refusal({4, 4, 4}, 0), "");
-  EXPECT_NE(refusal({4, 4, 4}, -0.01).find("0.0000 to 0.2500"), std::string::npos)
+  EXPECT_NE(refusal({4, 4, 4}, -0.01).find("0.0000 to 0.5000"), std::string::npos)
       << refusal({4, 4, 4}, -0.01);
-  EXPECT_NE(refusal({4, 4, 4}, 0.26).find("sides of 4 cells and 0 skins"), std::string::npos);
-  EXPECT_EQ(refusal({4, 4, 1}, 1.0 / 3), "");
-  EXPECT_NE(refusal({4, 4, 1}, 0.34).find("0.0000 to 0.3333"), std::string::npos) << refusal({4, 4, 1}, 0.34);
+  EXPECT_NE(refusal({4, 4, 4}, -0.01).find("diagonals of"), std::string::npos) << refusal({4, 4, 4}, -0.01);
   EXPECT_NE(refusal({4, 4, 1}, -0.01), "");
+  for (const double poisson : {0.26, 0.34, 0.4999}) {
+    EXPECT_EQ(refusal({4, 4, 4}, poisson), "");
+    EXPECT_EQ(refusal({4, 4, 1}, poisson), "");
+  }
   EXPECT_EQ(refusal({4, 1, 1}, 0.45), "");
 }
 
