@@ -8,7 +8,7 @@
 namespace geist::de {
 namespace {
 
-constexpr double largest_bond_poisson = 0.25, chosen_bond_poisson = 0.2;
+constexpr double largest_bond_poisson = 0.25, chosen_bond_poisson = 0.15;
 
 /// λ of plane stress, Eν/(1 − ν²).
 double plane_lambda(const Material& m) { return m.young * m.poisson / (1 - m.poisson * m.poisson); }
