@@ -26,23 +26,33 @@ struct PressureKernel {
   template <int kind>
   GEIST_INLINE Pack q(std::size_t s) const {
     Pack sum = {};
-    for (int c = 0; c < 3; ++c)
-      for (int a = 0; a < 8; ++a)
-        if (c != kind && has_corner(kind, a) && !(a >> c & 1))
-          sum = sum + (load(u[c] + s + to_corner[a | 1 << c]) - load(u[c] + s + to_corner[a]));
+    const auto add_edge = [&]<int n>() __attribute__((always_inline)) {
+      constexpr int c = n / 8, a = n % 8;
+      if constexpr (c != kind && has_corner(kind, a) && !(a >> c & 1))
+        sum = sum + (load(u[c] + s + to_corner[a | 1 << c]) - load(u[c] + s + to_corner[a]));
+    };
+    [&]<int... n>(std::integer_sequence<int, n...>) __attribute__((always_inline)) {
+      (add_edge.template operator()<n>(), ...);
+    }
+    (std::make_integer_sequence<int, 24>{});
     return sum;
   }
 
   /// Where there are none, whatever q is, the pressure is zero.
   template <int kind>
-  GEIST_INLINE void put(std::size_t s) const {
-    Pack k;
-    PackInt there;
-    for (int l = 0; l < lanes; ++l) {
-      const int count = dilating::count(dilating[s + l], kind);
-      k[l] = -count * (kind == of_cell ? stiffness.cell : stiffness.skin), there[l] = count ? -1 : 0;
-    }
-    store(p[kind] + s, (Pack)((PackInt)(k * q<kind>(s)) & there));
+  GEIST_INLINE void put(std::size_t s, PackInt eight) const {
+    const PackInt count = (eight >> 2 * kind) & 3;
+    const Pack k =
+        __builtin_convertvector(count, Pack) * -(kind == of_cell ? stiffness.cell : stiffness.skin);
+    store(p[kind] + s, (Pack)((PackInt)(k * q<kind>(s)) & (count != 0)));
+  }
+
+  void put_all(std::size_t s) const {
+    using Bytes = std::uint8_t __attribute__((vector_size(lanes)));
+    Bytes bytes;
+    std::memcpy(&bytes, dilating + s, sizeof bytes);
+    const PackInt here = __builtin_convertvector(bytes, PackInt);
+    put<0>(s, here), put<1>(s, here), put<2>(s, here), put<of_cell>(s, here);
   }
 
   void row(std::size_t row) const {
@@ -52,7 +62,7 @@ struct PressureKernel {
       if (eight == dilating::eight_cells)
         store(p[of_cell] + s, -stiffness.cell * q<of_cell>(s));
       else if (eight != 0)
-        put<0>(s), put<1>(s), put<2>(s), put<of_cell>(s);
+        put_all(s);
     }
   }
 };

@@ -11,6 +11,8 @@
 // of λ, four corners and two components: θ = q/4r, k = λ*_v r/4. Nothing turns a corner: moments are zero.
 #pragma once
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "core/pack.hpp"
 #include "de/bonds.hpp"
@@ -87,12 +89,19 @@ struct Pressures {
   /// The push of the eight cells, or four skins of one kind, around the eight sites at s: Σ p s_a.
   template <int kind>
   GEIST_INLINE void add(std::size_t s, Pack (&f)[6]) const {
-    for (int a = 0; a < 8; ++a) {
-      if (!has_corner(kind, a)) continue;
-      const Pack push = load(p[kind] + s - to_corner[a]);
-      for (int c = 0; c < 3; ++c)
-        if (c != kind) f[c] = a >> c & 1 ? f[c] + push : f[c] - push;
+    const double* const from = p[kind] + s;
+    const auto add_corner = [&]<int a>() __attribute__((always_inline)) {
+      if constexpr (has_corner(kind, a)) {
+        const Pack push = load(from - to_corner[a]);
+        if constexpr (kind != 0) f[0] = a & 1 ? f[0] + push : f[0] - push;
+        if constexpr (kind != 1) f[1] = a & 2 ? f[1] + push : f[1] - push;
+        if constexpr (kind != 2) f[2] = a & 4 ? f[2] + push : f[2] - push;
+      }
+    };
+    [&]<int... a>(std::integer_sequence<int, a...>) __attribute__((always_inline)) {
+      (add_corner.template operator()<a>(), ...);
     }
+    (std::make_integer_sequence<int, 8>{});
   }
 };
 
