@@ -138,6 +138,15 @@ GhostRotation ghost_rotation(const std::string& word) {
   return word == "none" ? GhostRotation::none : GhostRotation::own;
 }
 
+void assemble(Lattice& lattice) {
+  de::assemble(lattice);
+  if (lattice.dilates() && lattice.kinematics == Kinematics::finite)
+    throw std::invalid_argument(fmt::format(
+        "poisson = {} gives cells an energy of dilatation, which does not know finite rotations yet: "
+        "kinematics = \"finite\" takes at most 0.25 in this lattice",
+        lattice.material.poisson));
+}
+
 /// Ghosts, bonds, state and lists of all lattices.
 void couple(Model& model, const Case& input) {
   const Locator locator(model.mesh);
@@ -159,7 +168,7 @@ void couple(Model& model, const Case& input) {
     trim(lattice);
     connect(lattice);
     if (input.method == "consistent")
-      at_region(input, spec_of(input, lattice.name), [&] { de::assemble(lattice); });
+      at_region(input, spec_of(input, lattice.name), [&] { assemble(lattice); });
     finish(lattice);
   }
   if (input.method == "consistent" && coupled)

@@ -58,17 +58,18 @@ Table units() {
 }
 
 Table materials() {
-  return {"materials.*",
-          "[materials.NAME]",
-          "Isotropic linear elasticity.",
-          {number("density", "mass/length³", "Mass per volume.").above(0).required(),
-           number("young", "stress", "Young's modulus.").above(0).required(),
-           number("poisson", "-",
-                  "Poisson's ratio; at most 1/4 in a lattice, where k_s of equation (5) would be negative "
-                  "beyond. The "
-                  "consistent method's limits depend on the lattice: a sheet of one layer allows 0 to 1/3.")
-               .range_is({-1, 0.5, true, true})
-               .required()}};
+  return {
+      "materials.*",
+      "[materials.NAME]",
+      "Isotropic linear elasticity.",
+      {number("density", "mass/length³", "Mass per volume.").above(0).required(),
+       number("young", "stress", "Young's modulus.").above(0).required(),
+       number("poisson", "-",
+              "Poisson's ratio; at most 1/4 in a published lattice, where k_s of equation (5) would be "
+              "negative beyond. In a consistent one from 0 on (in a row of particles from -1 on); above 1/4 "
+              "its cells resist dilatation beside the bonds, in small displacements only.")
+           .range_is({-1, 0.5, true, true})
+           .required()}};
 }
 
 /// What a region is made of, and where it is.

@@ -191,6 +191,18 @@ Matrix6 stiffer_bond(const BondClass& kind, std::size_t d, const ElasticBond& bo
   return 2 * at_one_end(stiffness_matrix(more_s, (more_n - more_s) / g, e), e, r);
 }
 
+/// Four times what the skins around a site add to its stiffness: q² ≤ 4 Σ (s_a·u_a)².
+Matrix6 skins_around(Surroundings around, double stiffness) {
+  Matrix6 sum = Matrix6::Zero();
+  for (int d = 0; d < 18; ++d) {
+    if (group(d) == 1 || !has_neighbour(around, d)) continue;
+    const auto [a, b, c] = directions[static_cast<std::size_t>(d)];
+    const Eigen::Vector3d s(a, b, c);
+    sum.topLeftCorner<3, 3>() += (4 * stiffness * parts_of(around, d).skins) * s * s.transpose();
+  }
+  return sum;
+}
+
 }  // namespace
 
 Parts parts_of(Surroundings around, int d) {
@@ -217,7 +229,8 @@ Parts parts_of(Surroundings around, int d) {
 }
 
 ElasticBond assembled(const Parts& parts, int group, const Material& material, double r) {
-  const double E = material.young, nu = material.poisson, G = E / (2 * (1 + nu));
+  const Material bonds = material_of_bonds(material);  // of cells and skins; bars are in uniaxial stress
+  const double E = bonds.young, nu = bonds.poisson, G = material.mu();
   const ElasticBond cell = EndlessBond::from(material, r).of(group);
   if (group == 2) {
     const double share = 0.5 * parts.cells, k_n2 = r * nu * E / (1 - nu * nu);
@@ -225,9 +238,41 @@ ElasticBond assembled(const Parts& parts, int group, const Material& material, d
   }
   const double share = 0.25 * parts.cells, skin = 0.5 * parts.skins;
   const double k_n1 = r * E / (1 + nu), k_s1 = k_n1 * (1 - 3 * nu) / (1 - nu);
-  return {share * cell.k_n + skin * k_n1 + parts.bars * (E * r / 2),
+  return {share * cell.k_n + skin * k_n1 + parts.bars * (material.young * r / 2),
           share * cell.k_s + skin * k_s1 + parts.lone_bars * (5.0 / 6 * G * r / 2)};
 }
+
+namespace {
+
+/// Cells and skins that the site is the lowest corner of.
+std::uint8_t dilating_at(Surroundings around) {
+  std::uint8_t here = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Step a = unit((axis + 1) % 3, 1), b = unit((axis + 2) % 3, 1);
+    if (!Occupied{around.occupied}(a + b)) continue;
+    const Parts above = diagonal_in_cube(around, a, b, unit(axis, 1)),
+                below = diagonal_in_cube(around, a, b, unit(axis, -1));
+    here |= static_cast<std::uint8_t>((above.skins + below.skins) << 2 * axis);
+    if (above.cells) here |= dilating::cell;
+  }
+  return here;
+}
+
+/// Cells and skins with an energy of dilatation; none where bonds carry all.
+void make_dilating(Lattice& lattice) {
+  lattice.dilating.clear(), lattice.pressure = {};
+  const Dilatation stiffness = Dilatation::from(lattice.material, lattice.radius());
+  if (stiffness.cell == 0 && stiffness.skin == 0) return;
+  std::vector<std::uint8_t> dilating(lattice.grid.size());
+  for (std::size_t s = 0; s < dilating.size(); ++s)
+    if (lattice.is(s, site::particle | site::ghost))
+      dilating[s] = dilating_at(lattice.classes[lattice.class_of[s]].around);
+  if (std::all_of(dilating.begin(), dilating.end(), [](std::uint8_t here) { return here == 0; })) return;
+  lattice.dilating = std::move(dilating);
+  lattice.pressure = Field<4>(lattice.grid.size(), lattice.grid.guard());
+}
+
+}  // namespace
 
 void assemble(Lattice& lattice) {
   const double r = lattice.radius();
@@ -245,6 +290,7 @@ void assemble(Lattice& lattice) {
   }
   connect_ghosts(lattice);
   check_stiffness(lattice);
+  make_dilating(lattice);
 }
 
 double surface_excess(const Lattice& lattice) {
@@ -253,9 +299,10 @@ double surface_excess(const Lattice& lattice) {
   Eigen::Matrix<double, 6, 1> scale;
   scale << Eigen::Vector3d::Constant(1 / std::sqrt(lattice.mass)),
       Eigen::Vector3d::Constant(1 / std::sqrt(lattice.inertia));
+  const double skin = lattice.dilates() ? Dilatation::from(lattice.material, r).skin : 0;
   double most = 0;
   for (const BondClass& kind : lattice.classes) {
-    Matrix6 S = Matrix6::Zero();
+    Matrix6 S = skins_around(kind.around, skin);
     for (int d = 0; d < 18; ++d) {
       const auto at = static_cast<std::size_t>(d);
       const Eigen::Vector3d e(directions[at][0], directions[at][1], directions[at][2]);

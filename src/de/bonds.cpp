@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstring>
+#include <type_traits>
 
 #include "core/parallel.hpp"
 #include "de/finite_stencil.hpp"
@@ -45,6 +46,15 @@ struct Consistent {
   }
 };
 
+/// And with pressures of cells and skins; skins are at the surface only.
+struct Dilating : Consistent, Pressures {
+  explicit Dilating(const Lattice& lattice) : Consistent(lattice), Pressures(lattice) {}
+  GEIST_INLINE void add_inner(std::size_t s, Pack (&f)[6]) const { add<of_cell>(s, f); }
+  GEIST_INLINE void add_all(std::size_t s, Pack (&f)[6]) const {
+    add<0>(s, f), add<1>(s, f), add<2>(s, f), add<of_cell>(s, f);
+  }
+};
+
 /// What the row kernel reads and writes, as plain pointers and numbers. View is that of small or of finite
 /// rotations.
 template <class Method, class View>
@@ -70,6 +80,7 @@ struct RowKernel {
   GEIST_INLINE void inner(std::size_t s, Accumulated& sums) const {
     Pack f[6];
     site_force(motion, s, offset, method.inner, r, AllBonds{}, f);
+    if constexpr (std::is_same_v<Method, Dilating>) method.add_inner(s, f);
     advance(
         s, f, sums, [](Pack, Pack v) __attribute__((always_inline)) { return v; });
   }
@@ -79,6 +90,7 @@ struct RowKernel {
     const PackInt w = words(word + s);
     Pack f[6];
     site_force(motion, s, offset, method.at(s), r, SomeBonds{w}, f);
+    if constexpr (std::is_same_v<Method, Dilating>) method.add_all(s, f);
     const PackInt free = -((w / site::free) & 1);
     advance(
         s, f, sums, [=](Pack before, Pack after) __attribute__((always_inline)) {
@@ -238,6 +250,11 @@ auto with_kinematics(const Lattice& lattice, F f) {
 }  // namespace
 
 KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick) {
+  if (lattice.dilates()) {
+    find_pressures(lattice);
+    return forces_and_kick(row_kernel(Dilating(lattice), view(lattice.motion), lattice, kick),
+                           lattice.row_sums, lattice.grid.rows());
+  }
   return with_kinematics(lattice, [&](const auto& method, const auto& motion) {
     return forces_and_kick(row_kernel(method, motion, lattice, kick), lattice.row_sums, lattice.grid.rows());
   });
@@ -261,9 +278,10 @@ KickSums kick_listed(Lattice& lattice, const Kick& kick) {
 }
 
 BondEnergies energies(const Lattice& lattice) {
-  return with_kinematics(lattice, [&](const auto& method, const auto& motion) {
+  const BondEnergies bonds = with_kinematics(lattice, [&](const auto& method, const auto& motion) {
     return add_up(SiteEnergies(method, motion, lattice), lattice);
   });
+  return lattice.dilates() ? dilatation_energies(lattice) += bonds : bonds;
 }
 
 std::vector<double> site_energies(const Lattice& lattice) {
@@ -274,6 +292,7 @@ std::vector<double> site_energies(const Lattice& lattice) {
       store(out + lanes * pack, energy.at(lanes * pack));
     };
     for_each(energies.size() / lanes, store_pack, 128);
+    if (lattice.dilates()) add_dilatation_energies(lattice, energies);
     return energies;
   });
 }

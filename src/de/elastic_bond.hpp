@@ -16,6 +16,7 @@
 // resist bending and twisting, m = k (θ_j − θ_i) on i with k_b across the bond and k_t along it.
 #pragma once
 #include "core/pack.hpp"
+#include "de/dilatation.hpp"
 #include "model/lattice.hpp"
 #include "model/material.hpp"
 
@@ -98,7 +99,8 @@ struct EndlessBond : Bending {
   ElasticBond near, far;  ///< of groups 1 and 2
 
   static EndlessBond from(const Material& m, double r) {
-    const double lambda = m.lambda(), mu = m.mu();
+    const Material bonds = material_of_bonds(m);
+    const double lambda = bonds.lambda(), mu = bonds.mu();
     return {Bending::from(m, r), {2 * r * (2 * mu - lambda), 4 * r * (mu - lambda)}, {2 * r * lambda, 0}};
   }
   const ElasticBond& of(int group) const { return group == 1 ? near : far; }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "de/dilatation.hpp"
 #include "de/elastic_bond.hpp"
 #include "de/stencil.hpp"
 
@@ -72,6 +73,7 @@ class BondMatrices {
     const Bending bending = Bending::from(lattice.material, r);
     for (std::uint32_t c = 0; c < lattice.classes.size(); ++c)
       stiffnesses_.push_back(detail::stiffnesses(ClassBonds<double>(bending, lattice.classes.data(), &c), r));
+    if (lattice.dilates()) dilatation_ = Dilatation::from(lattice.material, r);
     if (stiffnesses_.empty())
       stiffnesses_.push_back(detail::stiffnesses(ElasticBond::from(lattice.material, r), r));
   }
@@ -80,12 +82,15 @@ class BondMatrices {
   const Matrix6& stiffness(std::size_t site, int d) const {
     return stiffnesses_[law_of(site)][static_cast<std::size_t>(d)];
   }
+  /// Of cells and skins.
+  const Dilatation& dilatation() const { return dilatation_; }
   /// Sites with the same law have the same stiffnesses.
   std::uint32_t law_of(std::size_t site) const { return lattice_.consistent() ? lattice_.class_of[site] : 0; }
 
  private:
   const Lattice& lattice_;
   std::array<BondStrain, 18> strains_;
+  Dilatation dilatation_;
   std::vector<std::array<Matrix6, 18>> stiffnesses_;
 };
 

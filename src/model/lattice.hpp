@@ -53,6 +53,14 @@ inline constexpr std::uint32_t surface = 1u << 21;
 inline constexpr std::uint32_t inner = bonds | particle | free;
 }  // namespace site
 
+/// What the site is the lowest corner of and resists dilatation: bit 6 says whether a cell, bits 2a and 2a +
+/// 1 count the skins across axis a (none to two).
+namespace dilating {
+inline constexpr std::uint8_t cell = 1u << 6;
+inline constexpr std::uint64_t eight_cells = 0x0101010101010101u * cell;
+constexpr int count(std::uint8_t here, int kind) { return here >> 2 * kind & 3; }
+}  // namespace dilating
+
 /// Position of sites on the grid.
 struct Grid {
   int nx = 0, ny = 0, nz = 0;  ///< sites in each direction
@@ -141,6 +149,10 @@ struct Lattice {
   // lattice's.
   std::vector<BondClass> classes;
   std::vector<std::uint32_t> class_of;
+  // Those with ν > ¼ only (de/dilatation.hpp): cells and skins by their lowest corner's site, and the force
+  // by which they push their corners outwards along each axis, of skins across x, y, z and of cells.
+  std::vector<std::uint8_t> dilating;
+  Field<4> pressure;
 
   // State: components 0–2 of motion are the displacement u, 3–5 the rotation θ (radians); of velocity v and
   // ω.
@@ -167,6 +179,7 @@ struct Lattice {
 
   double radius() const { return grid.pitch / 2; }
   bool consistent() const { return !classes.empty(); }
+  bool dilates() const { return !dilating.empty(); }
   bool is(std::size_t s, std::uint32_t flag) const { return word[s] & flag; }
   std::size_t count(std::uint32_t flag) const;
 };

@@ -44,12 +44,29 @@ void multiply_turned(const Eigen::Matrix<double, 6, 6>& A, const Eigen::Matrix3d
   Eigen::Map<Two>{y} = R.lazyProduct(Eigen::Map<Two>(out.data()));
 }
 
-/// Stiffness of a site's bonds against its own motion.
+/// What the cells and skins around a site add to its stiffness: Σ k s_a s_aᵀ.
+Eigen::Matrix3d dilatation_stiffness(const de::BondMatrices& bonds, const Lattice& lattice, std::size_t s) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int corner = 0; lattice.dilates() && corner < 8; ++corner) {
+    const std::size_t lowest = s - de::to_corner(lattice.grid, corner);
+    if (lowest >= lattice.dilating.size()) continue;
+    de::visit_swellings(lattice, bonds.dilatation(), lowest, [&](const de::Swelling& w) {
+      for (int a = 0; a < w.corners; ++a) {
+        const Eigen::Vector3d n(w.s[a].x, w.s[a].y, w.s[a].z);
+        if (w.site[a] == s) sum += w.k * n * n.transpose();
+      }
+    });
+  }
+  return sum;
+}
+
+/// Stiffness of a site's bonds, cells and skins against its own motion.
 de::Matrix6 own_stiffness(const de::BondMatrices& bonds, const Lattice& lattice, std::size_t s) {
   de::Matrix6 K = de::Matrix6::Zero();
   for (int d = 0; d < 18; ++d)
     if (lattice.word[s] >> d & 1)
       K += bonds.strain(d).B_i.transpose() * bonds.stiffness(s, d) * bonds.strain(d).B_i;
+  K.topLeftCorner<3, 3>() += dilatation_stiffness(bonds, lattice, s);
   return K;
 }
 

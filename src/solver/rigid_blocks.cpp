@@ -60,7 +60,12 @@ class Assembly {
 
   Eigen::SparseMatrix<double> matrix() {
     add_elements();
-    for (std::size_t l = 0; l < model_.lattices.size(); ++l) add_bonds(model_.lattices[l], l);
+    for (std::size_t l = 0; l < model_.lattices.size(); ++l) {
+      const de::BondMatrices bonds(model_.lattices[l]);
+      const std::vector<const Ghost*> ghosts = ghost_at(model_.lattices[l]);
+      add_bonds(model_.lattices[l], l, bonds, ghosts);
+      add_swellings(model_.lattices[l], l, bonds, ghosts);
+    }
     return sum_.lower();
   }
 
@@ -129,10 +134,15 @@ class Assembly {
     }
   };
 
-  void add_bonds(const Lattice& lattice, std::size_t l) {
-    const de::BondMatrices bonds(lattice);
-    std::vector<const Ghost*> ghost_at(lattice.grid.size(), nullptr);
-    for (const Ghost& ghost : lattice.ghosts) ghost_at[ghost.site] = &ghost;
+  /// The ghost at a site, or none.
+  static std::vector<const Ghost*> ghost_at(const Lattice& lattice) {
+    std::vector<const Ghost*> ghosts(lattice.grid.size(), nullptr);
+    for (const Ghost& ghost : lattice.ghosts) ghosts[ghost.site] = &ghost;
+    return ghosts;
+  }
+
+  void add_bonds(const Lattice& lattice, std::size_t l, const de::BondMatrices& bonds,
+                 const std::vector<const Ghost*>& ghosts) {
     Strain strain;
     for (std::size_t s = 0; s < lattice.grid.size(); ++s)
       for (int d = 9; d < 18; ++d) {
@@ -144,8 +154,8 @@ class Assembly {
           continue;
         strain.by_block.clear();
         const Matrix6 axes = in_both(bond_axes(lattice, s, t).transpose());
-        add_end(lattice, i, ghost_at[s], bonds.strain(d).B_i.lazyProduct(axes), strain);
-        add_end(lattice, j, ghost_at[t], bonds.strain(d).B_j.lazyProduct(axes), strain);
+        add_end(lattice, i, ghosts[s], bonds.strain(d).B_i.lazyProduct(axes), strain);
+        add_end(lattice, j, ghosts[t], bonds.strain(d).B_j.lazyProduct(axes), strain);
         add_energy(strain, bonds.stiffness(s, d));
       }
   }
@@ -155,6 +165,32 @@ class Assembly {
     Matrix6 A = Matrix6::Zero();
     A.topLeftCorner<3, 3>() = R, A.bottomRightCorner<3, 3>() = R;
     return A;
+  }
+
+  /// Cells and skins: q is the first component of a strain.
+  void add_swellings(const Lattice& lattice, std::size_t l, const de::BondMatrices& bonds,
+                     const std::vector<const Ghost*>& ghosts) {
+    Strain strain;
+    const auto add = [&](const de::Swelling& w) {
+      if (moves_as_one(l, w)) return;
+      strain.by_block.clear();
+      for (int a = 0; a < w.corners; ++a) {
+        Matrix6 B = Matrix6::Zero();
+        for (int c = 0; c < 3; ++c) B(0, c) = w.s[a][c];
+        add_end(lattice, places_.of_site(l, w.site[a]), ghosts[w.site[a]], B, strain);
+      }
+      add_energy(strain, Eigen::Matrix<double, 6, 1>(w.k, 0, 0, 0, 0, 0).asDiagonal());
+    };
+    for (std::size_t s = 0; s < lattice.dilating.size(); ++s)
+      de::visit_swellings(lattice, bonds.dilatation(), s, add);
+  }
+
+  bool moves_as_one(std::size_t l, const de::Swelling& w) const {
+    const std::int32_t first = places_.block_of(places_.of_site(l, w.site[0]));
+    return std::all_of(w.site.begin(), w.site.begin() + w.corners, [&](std::size_t site) {
+      const std::int32_t k = places_.of_site(l, site);
+      return places_.block_of(k) == first && moves_rigidly(k, 0b111111);
+    });
   }
 
   /// What a bond's end at place k adds to its strain.

@@ -82,7 +82,12 @@ TEST(Build, MakesConsistentLattices) {
   std::string text = materials + two_regions + dynamic;
   const std::string poisson = "poisson = 0.2";
   text.replace(text.find(poisson), poisson.size(), "poisson = 0.3");
-  expect_build_error(text, "[regions.right]", {"'right'", "poisson = 0.3", "negative stiffness", "0.2500"});
+  EXPECT_TRUE(build(read_case_text(text, "small.toml")).simulation.model.lattices[0].dilates());
+  expect_build_error(text + "kinematics = \"finite\"\n", "[regions.right]",
+                     {"'right'", "poisson = 0.3", "dilatation", "finite", "0.25"});
+  text.replace(text.find("poisson = 0.3"), poisson.size(), "poisson = -0.2");
+  expect_build_error(text, "[regions.right]",
+                     {"'right'", "poisson = -0.2", "negative stiffness", "to 0.5000"});
 }
 
 /// Particles that fill a cavity have whole cells around them, corners and all.

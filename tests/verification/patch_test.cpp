@@ -296,6 +296,48 @@ TEST(Patch, BendingAcrossInterfaces) {
   }
 }
 
+/// Where cells and skins resist dilatation beside the bonds (de/dilatation.hpp).
+class PatchByPoisson : public ::testing::TestWithParam<double> {
+ protected:
+  static std::string with_poisson(std::string text) {
+    const std::string usual_one = "poisson = 0.2";
+    return text.replace(text.find(usual_one), usual_one.size(), fmt::format("poisson = {}", GetParam()));
+  }
+  /// Uniaxial stress.
+  static Mat3 pull(std::size_t axis) {
+    Mat3 G{};
+    for (std::size_t c = 0; c < 3; ++c) G[c][c] = c == axis ? 1e-3 : -GetParam() * 1e-3;
+    return G;
+  }
+  static void expect_all_exact(const std::string& text, std::initializer_list<Mat3> states,
+                               const std::string& what) {
+    for (const Mat3& G : states)
+      expect_exact(with_poisson(text), homogeneous(G), fmt::format("{}, nu {}", what, GetParam()));
+  }
+  static constexpr Fineness few[] = {{0.25, 2}, {0.1, 2}, {0.125, 1}};
+};
+
+TEST_P(PatchByPoisson, EmbeddedLatticeInAnyStrain) {
+  for (const std::string formulation : {"full", "selective-reduced", "one-point", "assumed-strain"})
+    for (const Fineness& f : few)
+      expect_all_exact(embedded_and_held(f, formulation), {any}, say(f, formulation));
+}
+
+TEST_P(PatchByPoisson, FreeFaces) {
+  for (const Fineness& f : few) {
+    expect_all_exact(bar(f, "assumed-strain"), {pull(0)}, say(f, "bar"));
+    expect_all_exact(
+        around(f, [](int i, int j, int) { return i < 2 && j < 2; }) + hold('z', 0) + hold('z', 3), {pull(2)},
+        say(f, "L"));
+    expect_all_exact(around(f, [](int, int j, int) { return j < 2; }) + hold('x', 0) + hold('x', 3) +
+                         hold('z', 0) + hold('z', 3),
+                     {pull(0), pull(2)}, say(f, "notch"));
+    expect_all_exact(plate(f), {pull(0), pull(1), shear_xy}, say(f, "plate"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Metals, PatchByPoisson, ::testing::Values(0.3, 0.4, 0.45));
+
 /// The published method for comparison: its errors are per cents of the strain and more.
 TEST(Patch, PublishedMethodFails) {
   const Worst worst = patch(bar({0.125, 2}, "full"), homogeneous(pull_x), "published");
