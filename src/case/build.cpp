@@ -142,8 +142,8 @@ void assemble(Lattice& lattice) {
   de::assemble(lattice);
   if (lattice.dilates() && lattice.kinematics == Kinematics::finite)
     throw std::invalid_argument(fmt::format(
-        "poisson = {} gives cells an energy of dilatation, which does not know finite rotations yet: "
-        "kinematics = \"finite\" takes at most 0.25 in this lattice",
+        "poisson = {} gives cells an energy of dilatation, which does not know finite rotations yet; set "
+        "kinematics = \"small\" in [analysis], or poisson to at most 0.25",
         lattice.material.poisson));
 }
 
