@@ -58,37 +58,52 @@ double weight(const Mesh& mesh, std::int32_t e, Cuts& cuts) {
   return std::max(0.0, cuts.of(e).volume - 1e-3 * all);
 }
 
+/// The equations Σ_e Σ_k γ_ka q_ek = R_a, in units of q that make Σ |q|²/V the sum of squares.
+struct Equations {
+  std::map<std::int32_t, int> row;     ///< by node
+  std::vector<Patterns> scaled;        ///< √V γ, by carrier
+  Eigen::SparseMatrix<double> matrix;  ///< four columns a carrier
+  Eigen::MatrixX3d right;
+
+  Equations(const Mesh& mesh, const std::vector<std::int32_t>& carriers,
+            const std::map<std::int32_t, Vec3>& defects, Cuts& cuts) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const std::int32_t e : carriers) {
+      const auto at = static_cast<std::size_t>(e);
+      const int column = static_cast<int>(4 * scaled.size());
+      scaled.push_back(std::sqrt(weight(mesh, e, cuts)) * patterns(hex8::corners(mesh, at)));
+      for (int a = 0; a < 8; ++a) {
+        const int i = row.try_emplace(mesh.elements[at][a], static_cast<int>(row.size())).first->second;
+        for (int p = 0; p < 4; ++p) entries.emplace_back(i, column + p, scaled.back()(a, p));
+      }
+    }
+    matrix.resize(static_cast<Eigen::Index>(row.size()), static_cast<Eigen::Index>(4 * carriers.size()));
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    right = Eigen::MatrixX3d::Zero(matrix.rows(), 3);
+    for (const auto& [node, defect] : defects)
+      if (const auto it = row.find(node); it != row.end())
+        right.row(it->second) << defect.x, defect.y, defect.z;
+  }
+
+  /// The solution of least norm, as conjugate gradients start from nothing; the nearest if there is none.
+  Eigen::MatrixX3d solution() const {
+    Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(matrix);
+    solver.setTolerance(1e-12);
+    solver.setMaxIterations(2000);
+    return solver.solve(right);
+  }
+};
+
 }  // namespace
 
 void balance(const Mesh& mesh, const std::map<std::int32_t, Vec3>& defects, Cuts& cuts) {
   const std::vector<std::int32_t> carriers = carriers_of(mesh, defects, cuts);
   if (carriers.empty()) return;
-  std::map<std::int32_t, int> row;  // by node
-  for (const std::int32_t e : carriers)
-    for (const std::int32_t node : mesh.elements[static_cast<std::size_t>(e)])
-      row.try_emplace(node, static_cast<int>(row.size()));
-  std::vector<Patterns> scaled;  // √V γ
-  std::vector<Eigen::Triplet<double>> entries;
+  const Equations equations(mesh, carriers, defects, cuts);
+  const Eigen::MatrixX3d q = equations.solution();
   for (std::size_t k = 0; k < carriers.size(); ++k) {
-    const auto& nodes = mesh.elements[static_cast<std::size_t>(carriers[k])];
-    scaled.push_back(std::sqrt(weight(mesh, carriers[k], cuts)) *
-                     patterns(hex8::corners(mesh, static_cast<std::size_t>(carriers[k]))));
-    for (int a = 0; a < 8; ++a)
-      for (int p = 0; p < 4; ++p)
-        entries.emplace_back(row[nodes[a]], static_cast<int>(4 * k) + p, scaled.back()(a, p));
-  }
-  Eigen::SparseMatrix<double> C(static_cast<Eigen::Index>(row.size()),
-                                static_cast<Eigen::Index>(4 * carriers.size()));
-  C.setFromTriplets(entries.begin(), entries.end());
-  Eigen::MatrixX3d R = Eigen::MatrixX3d::Zero(C.rows(), 3);
-  for (const auto& [node, defect] : defects)
-    if (const auto it = row.find(node); it != row.end()) R.row(it->second) << defect.x, defect.y, defect.z;
-  Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(C);
-  solver.setTolerance(1e-12);
-  solver.setMaxIterations(2000);
-  const Eigen::MatrixX3d q = solver.solve(R);  // of least norm, as it starts from nothing
-  for (std::size_t k = 0; k < carriers.size(); ++k) {
-    const Eigen::Matrix<double, 8, 3> G = scaled[k] * q.middleRows<4>(static_cast<Eigen::Index>(4 * k));
+    const Eigen::Matrix<double, 8, 3> G =
+        equations.scaled[k] * q.middleRows<4>(static_cast<Eigen::Index>(4 * k));
     HexCut& cut = cuts.of(carriers[k]);
     for (int a = 0; a < 8; ++a) cut.gradient[a] += Vec3{G(a, 0), G(a, 1), G(a, 2)};
   }
