@@ -135,10 +135,67 @@ Key kinematics() {
       "every hexahedron and every particle: rotations may be any, strains moderate.");
 }
 
-Table analysis_table() {
+/// What is computed, from where, until when.
+std::vector<Key> analysis_kind() {
   return {
-      "analysis",
-      "[analysis]",
+      choice("type", {"dynamic", "static", "quasi-static"}, "What is computed.").required(),
+      choice("start", {"undeformed", "static"},
+             "Where the motion begins: undeformed, or (static) in equilibrium under loads and displacements "
+             "as they "
+             "are at time 0; [[initial]] adds its velocities.")
+          .otherwise("\"undeformed\"")
+          .when(dynamic),
+      kinematics().otherwise("\"small\"").when({"start", "static"}),
+      kinematics().otherwise("\"finite\"", "\"small\"").when(dynamic),
+      kinematics().otherwise("\"small\"").when({"type", "dynamic", true}),
+      number("duration", "time",
+             "Dynamic: the end of the run. Quasi-static: where to give up (without it, "
+             "after max_steps).")
+          .above(0)
+          .required_when(dynamic)};
+}
+
+/// How it is found.
+std::vector<Key> analysis_steps() {
+  return {
+      number("tolerance", "-",
+             "The solution is found when the residual force, relative to the load, is below this.")
+          .range_is({0, 1, true, true})
+          .otherwise("1e-8")
+          .when(statics),
+      value(Type::integer, "max_iterations", "-", "Where to give up; a hundred iterations are usual.")
+          .at_least(1)
+          .otherwise("10000")
+          .when(statics),
+      number("tolerance", "-", "The run ends when the residual force, relative to the load, is below this.")
+          .range_is({0, 1, true, true})
+          .otherwise("1e-6")
+          .when(quasi_static),
+      value(Type::integer, "max_steps", "-", "Where to give up in any case.")
+          .at_least(1)
+          .otherwise("10000000"),
+      number("safety", "-", "Time step relative to the safe bound that Geist computes for the case.")
+          .range_is({0, 1, true, false})
+          .otherwise("0.9"),
+      number("time_step", "time",
+             "Time step, instead of the one computed; it must not exceed the safe bound.")
+          .above(0),
+      number("damping", "1/time", "Viscous damping proportional to mass: f = −damping·m·v.")
+          .at_least(0)
+          .otherwise("0")
+          .when(dynamic),
+      number(
+          "balance_tolerance", "-",
+          "The run is stopped when the energy balance is off by more than this share of the energies' sum.")
+          .above(0)
+          .otherwise("0.05")};
+}
+
+Table analysis_table() {
+  std::vector<Key> keys = analysis_kind();
+  for (const Key& key : analysis_steps()) keys.push_back(key);
+  return {
+      "analysis", "[analysis]",
       "Either the motion over a given time (dynamic), or the state of rest under the loads: solved for at "
       "once "
       "(static), or found by adaptive dynamic relaxation (quasi-static), which takes a hundred times longer "
@@ -146,52 +203,7 @@ Table analysis_table() {
       "contact. Both take loads and supports as they are when no curve changes any more. A static analysis "
       "has no "
       "time: what is said about time and steps has no meaning for it.",
-      {choice("type", {"dynamic", "static", "quasi-static"}, "What is computed.").required(),
-       choice("start", {"undeformed", "static"},
-              "Where the motion begins: undeformed, or (static) in equilibrium under loads and displacements "
-              "as they "
-              "are at time 0; [[initial]] adds its velocities.")
-           .otherwise("\"undeformed\"")
-           .when(dynamic),
-       kinematics().otherwise("\"small\"").when({"start", "static"}),
-       kinematics().otherwise("\"finite\"", "\"small\"").when(dynamic),
-       kinematics().otherwise("\"small\"").when({"type", "dynamic", true}),
-       number("duration", "time",
-              "Dynamic: the end of the run. Quasi-static: where to give up (without it, "
-              "after max_steps).")
-           .above(0)
-           .required_when(dynamic),
-       number("tolerance", "-",
-              "The solution is found when the residual force, relative to the load, is below this.")
-           .range_is({0, 1, true, true})
-           .otherwise("1e-8")
-           .when(statics),
-       value(Type::integer, "max_iterations", "-", "Where to give up; a hundred iterations are usual.")
-           .at_least(1)
-           .otherwise("10000")
-           .when(statics),
-       number("tolerance", "-", "The run ends when the residual force, relative to the load, is below this.")
-           .range_is({0, 1, true, true})
-           .otherwise("1e-6")
-           .when(quasi_static),
-       value(Type::integer, "max_steps", "-", "Where to give up in any case.")
-           .at_least(1)
-           .otherwise("10000000"),
-       number("safety", "-", "Time step relative to the safe bound that Geist computes for the case.")
-           .range_is({0, 1, true, false})
-           .otherwise("0.9"),
-       number("time_step", "time",
-              "Time step, instead of the one computed; it must not exceed the safe bound.")
-           .above(0),
-       number("damping", "1/time", "Viscous damping proportional to mass: f = −damping·m·v.")
-           .at_least(0)
-           .otherwise("0")
-           .when(dynamic),
-       number(
-           "balance_tolerance", "-",
-           "The run is stopped when the energy balance is off by more than this share of the energies' sum.")
-           .above(0)
-           .otherwise("0.05")}};
+      keys};
 }
 
 Table probes_table() {
