@@ -161,7 +161,7 @@ std::string describe(const Case& input, const Built& built) {
   text += fmt::format("Method\n  {}, {} displacements{}\n", input.method, input.analysis.kinematics,
                       coupled ? fmt::format("; ghost particles, rotation {}", input.rotation) : "");
   if (!input.contact.empty()) text += contacts(built.simulation, units);
-  if (input.analysis.type == "dynamic") text += describe_waves(input, model);
+  if (input.analysis.type != "static") text += describe_waves(input, model);
   return text + time_step(input, built, units) + analysis(input, built, units);
 }
 
