@@ -20,7 +20,7 @@ namespace {
 
 const std::map<std::string, std::string> golden{
     {"ball-on-plate", "4dadfe2430800440"},
-    {"beam", "e353da229639761a"},
+    {"beam", "af9dc6555eb5138e"},
     {"wide-beam", "53222637c487b411"},
 };
 const std::string golden_of_the_published_beam = "4d9bc8526500b6f3";
@@ -85,8 +85,8 @@ TEST(GoldenHash, SmallBodies) {
   EXPECT_EQ(small_hash(box_in_an_L), "11732e4af3849360");
   EXPECT_EQ(small_hash(L_around_a_box), "6aab1b47c1896f92");
   EXPECT_EQ(small_hash(L_around_a_box, {"regions.block.hourglass=viscous"}), "a720c731724362b3");
-  EXPECT_EQ(small_hash(box_in_an_L, small_and_consistent), "f5070812e6a612e4");
-  EXPECT_EQ(small_hash(L_around_a_box, small_and_consistent), "df472fdd3eef43b7");
+  EXPECT_EQ(small_hash(box_in_an_L, small_and_consistent), "929e85176476850d");
+  EXPECT_EQ(small_hash(L_around_a_box, small_and_consistent), "1235c9479f38c642");
 }
 
 TEST_P(GoldenHashByThreads, IsTheSameForFiniteRotations) {
@@ -102,7 +102,7 @@ TEST(GoldenHash, SmallBodiesWithFiniteRotations) {
                                        "analysis.kinematics=finite"};
   for (int n = 1; n <= 4; ++n) {
     EXPECT_EQ(small_hash(box_in_an_L, {"analysis.kinematics=finite"}, n), "4dd4403ff00ee572");
-    EXPECT_EQ(small_hash(L_around_a_box, alone, n), "f020d46b0596ddfa");
+    EXPECT_EQ(small_hash(L_around_a_box, alone, n), "174c2efce8ab77ef");
   }
   set_threads(1);
 }
