@@ -177,7 +177,7 @@ void StaticModel::show(const PlaceVector& p, double factor) {
       turn(model_.lattices[l], static_cast<std::int32_t>(l), p, factor);
   for_each(
       x_.size(),
-      [=, this, from = x_.data(), along = p.data(), to = present_.data()](std::size_t i) {
+      [=, from = x_.data(), along = p.data(), to = present_.data()](std::size_t i) {
         to[i] = fma(factor, along[i], from[i]);
       },
       10'000);
@@ -204,7 +204,7 @@ void StaticModel::turn(Lattice& lattice, std::int32_t l, const PlaceVector& p, d
 /// Largest displacement by that length, or rotation of lattices with finite ones.
 double StaticModel::largest(const PlaceVector& p, double length) const {
   return sum<Largest>(places_.size(),
-                      [this, &p, length](std::size_t k) {
+                      [&p, length](std::size_t k) {
                         return Largest{std::max(norm(part(p, k, 0)) / length, norm(part(p, k, 3)))};
                       })
       .value;
