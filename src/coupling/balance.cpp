@@ -33,19 +33,20 @@ Patterns patterns(const hex8::Corners& x) {
 /// rounding, and the cut ones, which lead from one corner of an interface to the next; none if the pulls
 /// agree.
 std::vector<std::int32_t> carriers_of(const Mesh& mesh, const std::map<std::int32_t, Vec3>& defects,
-                                      Cuts& cuts) {
+                                      const Cuts& cuts) {
   std::vector<std::int32_t> carriers;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const double area = std::cbrt(std::pow(hex8::volume(hex8::corners(mesh, e)), 2));
     const auto differ = [&](std::int32_t node) {
       const auto it = defects.find(node);
-      return it != defects.end() && norm(it->second) > 1e-8 * area;
+      return it != defects.end() &&
+             norm(it->second) > 1e-8 * std::cbrt(std::pow(hex8::volume(hex8::corners(mesh, e)), 2));
     };
     if (std::any_of(mesh.elements[e].begin(), mesh.elements[e].end(), differ))
       carriers.push_back(static_cast<std::int32_t>(e));
   }
   if (carriers.empty()) return carriers;
-  for (const HexCut& cut : cuts.finished()) carriers.push_back(cut.element);
+  const std::vector<std::int32_t> cut = cuts.elements();
+  carriers.insert(carriers.end(), cut.begin(), cut.end());
   std::sort(carriers.begin(), carriers.end());
   carriers.erase(std::unique(carriers.begin(), carriers.end()), carriers.end());
   return carriers;

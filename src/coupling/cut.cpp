@@ -104,6 +104,12 @@ HexCut& Cuts::of(std::int32_t element) {
   return it->second;
 }
 
+std::vector<std::int32_t> Cuts::elements() const {
+  std::vector<std::int32_t> all;
+  for (const auto& [element, cut] : left_) all.push_back(element);
+  return all;
+}
+
 std::vector<HexCut> Cuts::finished() {
   std::vector<HexCut> cuts;
   for (auto& [element, cut] : left_) {
@@ -119,10 +125,10 @@ std::vector<HexCut> Cuts::finished() {
 }
 
 std::vector<HexCut> cut_hexahedra(Model& model, const Locator& locator) {
-  spread_ghosts(model, locator);
+  const auto defects = spread_ghosts(model, locator);
   Cuts cuts(model.mesh);
   take_octants(model, locator, cuts);
-  balance(model.mesh, pull_defects(model, locator), cuts);
+  balance(model.mesh, defects, cuts);
   return cuts.finished();
 }
 

@@ -16,6 +16,7 @@ class Cuts {
  public:
   explicit Cuts(const Mesh& mesh) : mesh_(mesh) {}
   HexCut& of(std::int32_t element);
+  std::vector<std::int32_t> elements() const;  ///< that were asked for, in order
 
   /// All that were asked for, in order of elements. Where less than 10⁻⁶ of an element would be left, 10⁻⁶
   /// is, so that its nodes stay attached.

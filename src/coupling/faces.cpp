@@ -1,5 +1,6 @@
 #include "coupling/faces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "coupling/octants.hpp"
@@ -59,55 +60,62 @@ Shares integrate(const Square& square, double r, const Mesh& mesh, const Locator
   return shares;
 }
 
-bool parallel(Vec3 a, Vec3 b) { return dot(a, b) > 0.5; }
+/// The near squares of one ghost, with what they share out.
+struct Face {
+  std::vector<Square> squares;
+  std::vector<Shares> shares;
+
+  /// Four squares around the ghost in one plane.
+  bool is_flat() const {
+    return squares.size() == 4 && std::all_of(squares.begin(), squares.end(), [this](const Square& square) {
+             return dot(square.n, squares[0].n) > 0.5;
+           });
+  }
+};
 
 /// Give a ghost the nodes of its face, unless they are its hexahedron's.
-void spread(Ghost& ghost, const std::vector<Square>& squares, double r, const Mesh& mesh,
-            const Locator& locator) {
-  Shares face;
-  for (const Square& square : squares) {
-    const Shares part = integrate(square, r, mesh, locator);
-    for (const auto& [node, share] : part.by_node) face.by_node[node] += share;
-    face.area += part.area;
+void spread(Ghost& ghost, const Face& face, double r) {
+  Shares all;
+  for (const Shares& part : face.shares) {
+    for (const auto& [node, share] : part.by_node) all.by_node[node] += share;
+    all.area += part.area;
   }
-  if (std::abs(face.area - 4 * r * r) > 1e-6 * r * r) return;
-  for (const GhostNode& I : ghost.nodes) face.by_node.try_emplace(I.node, 0.0);
-  if (face.by_node.size() == ghost.nodes.size()) return;
+  if (std::abs(all.area - 4 * r * r) > 1e-6 * r * r) return;
+  for (const GhostNode& I : ghost.nodes) all.by_node.try_emplace(I.node, 0.0);
+  if (all.by_node.size() == ghost.nodes.size()) return;
   std::map<std::int32_t, Vec3> gradient;
   for (const GhostNode& I : ghost.nodes) gradient[I.node] = I.gradient;
   ghost.nodes.clear();
-  for (const auto& [node, share] : face.by_node) {
+  for (const auto& [node, share] : all.by_node) {
     const auto own = gradient.find(node);
-    ghost.nodes.push_back({node, share / face.area, own == gradient.end() ? Vec3{} : own->second});
+    ghost.nodes.push_back({node, share / all.area, own == gradient.end() ? Vec3{} : own->second});
   }
 }
 
 }  // namespace
 
-void spread_ghosts(Model& model, const Locator& locator) {
-  for (Lattice& lattice : model.lattices) {
-    std::map<Ghost*, std::vector<Square>> faces;
-    visit_octants(lattice, [&](Ghost& ghost, const Octant& octant) {
-      for (const Square& square : near_squares(lattice, octant)) faces[&ghost].push_back(square);
-    });
-    for (auto& [ghost, squares] : faces) {
-      bool flat = squares.size() == 4;
-      for (const Square& square : squares) flat = flat && parallel(square.n, squares[0].n);
-      if (flat) spread(*ghost, squares, lattice.radius(), model.mesh, locator);
-    }
-  }
-}
-
-std::map<std::int32_t, Vec3> pull_defects(const Model& model, const Locator& locator) {
+std::map<std::int32_t, Vec3> spread_ghosts(Model& model, const Locator& locator) {
   std::map<std::int32_t, Vec3> defects;
-  for (const Lattice& lattice : model.lattices)
+  for (Lattice& lattice : model.lattices) {
+    const double r = lattice.radius();
+    std::vector<Face> faces(lattice.ghosts.size());
     visit_octants(lattice, [&](const Ghost& ghost, const Octant& octant) {
-      for (const Square& square : near_squares(lattice, octant)) {
-        const Shares shares = integrate(square, lattice.radius(), model.mesh, locator);
-        for (const auto& [node, share] : shares.by_node) defects[node] -= share * square.n;
-        for (const GhostNode& I : ghost.nodes) defects[I.node] += (shares.area * I.N) * square.n;
+      Face& face = faces[static_cast<std::size_t>(&ghost - lattice.ghosts.data())];
+      for (Square& square : near_squares(lattice, octant)) {
+        face.shares.push_back(integrate(square, r, model.mesh, locator));
+        face.squares.push_back(std::move(square));
       }
     });
+    for (std::size_t g = 0; g < faces.size(); ++g) {
+      Ghost& ghost = lattice.ghosts[g];
+      const auto& [squares, shares] = faces[g];
+      if (faces[g].is_flat()) spread(ghost, faces[g], r);
+      for (std::size_t k = 0; k < squares.size(); ++k) {
+        for (const auto& [node, share] : shares[k].by_node) defects[node] -= share * squares[k].n;
+        for (const GhostNode& I : ghost.nodes) defects[I.node] += (shares[k].area * I.N) * squares[k].n;
+      }
+    }
+  }
   return defects;
 }
 

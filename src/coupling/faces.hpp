@@ -17,10 +17,8 @@
 
 namespace geist::coupling {
 
-/// Let ghosts take the mean displacement of their faces.
-void spread_ghosts(Model& model, const Locator& locator);
-
-/// By node, what (*) lacks: Σ_g N_ga A_g − ∫ N_a n dA.
-std::map<std::int32_t, Vec3> pull_defects(const Model& model, const Locator& locator);
+/// Let ghosts take the mean displacement of their faces. Returns, by node, what (*) lacks then:
+/// Σ_g N_ga A_g − ∫ N_a n dA.
+std::map<std::int32_t, Vec3> spread_ghosts(Model& model, const Locator& locator);
 
 }  // namespace geist::coupling
