@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
+
+#include "de/stiffness.hpp"
+
+#include <Eigen/Dense>
 
 namespace geist::de {
 namespace {
@@ -157,28 +160,18 @@ void check_stiffness(const Lattice& lattice) {
       words(*weak), least, most));
 }
 
-Eigen::Matrix3d stiffness_matrix(double shear, double along, const Eigen::Vector3d& e) {
-  return shear * Eigen::Matrix3d::Identity() + along * e * e.transpose();
-}
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
 /// Bᵀ K B, where B (u, θ) is what the motion of one end adds to d.
 Matrix6 at_one_end(const Eigen::Matrix3d& K, const Eigen::Vector3d& e, double r) {
   Eigen::Matrix<double, 3, 6> B;
   B.leftCols<3>() = -Eigen::Matrix3d::Identity();
-  for (int c = 0; c < 3; ++c) B.col(3 + c) = r * e.cross(Eigen::Vector3d::Unit(c));
+  B.rightCols<3>() = cross_matrix(r * e);
   return B.transpose() * K * B;
 }
 
 /// The endless lattice's bond to an empty place, cut: all of its energy at motion 0 over there.
 Matrix6 cut_bond(const EndlessBond& law, const Eigen::Vector3d& e, double r) {
-  const ElasticBond& bond = law.of(static_cast<int>(e.squaredNorm()));
-  Matrix6 cut = at_one_end(stiffness_matrix(bond.k_s, (bond.k_n - bond.k_s) / e.squaredNorm(), e), e, r);
-  if (e.squaredNorm() == 1) {
-    const Eigen::Matrix3d along = e * e.transpose(), across = Eigen::Matrix3d::Identity() - along;
-    cut.bottomRightCorner<3, 3>() += law.k_b * across + law.k_t * along;
-  }
+  Matrix6 cut = at_one_end(spring_matrix(law.of(static_cast<int>(e.squaredNorm())), e), e, r);
+  if (e.squaredNorm() == 1) cut.bottomRightCorner<3, 3>() += turning_matrix(law, e);
   return cut;
 }
 
@@ -188,7 +181,7 @@ Matrix6 stiffer_bond(const BondClass& kind, std::size_t d, const ElasticBond& bo
                      double r) {
   const double g = e.squaredNorm(), shear = kind.shear[d], normal = shear + g * kind.along[d];
   const double more_s = std::max(0.0, shear - bond.k_s), more_n = std::max(0.0, normal - bond.k_n);
-  return 2 * at_one_end(stiffness_matrix(more_s, (more_n - more_s) / g, e), e, r);
+  return 2 * at_one_end(spring_matrix(more_s, (more_n - more_s) / g, e), e, r);
 }
 
 /// Four times what the skins around a site add to its stiffness: q² ≤ 4 Σ (s_a·u_a)².

@@ -15,24 +15,13 @@
 #include "de/assembly.hpp"
 #include "de/bonds.hpp"
 #include "de/elastic_bond.hpp"
+#include "de/stiffness.hpp"
 
 namespace geist::de {
 namespace {
 
 using Complex = std::complex<double>;
-using Matrix6 = Eigen::Matrix<Complex, 6, 6>;
-
-/// K of the bond along e in the lattice's axes.
-Eigen::Matrix3d stiffness(const ElasticBond& law, const Eigen::Vector3d& e) {
-  const Eigen::Vector3d n = e.normalized();
-  return law.k_s * Eigen::Matrix3d::Identity() + (law.k_n - law.k_s) * n * n.transpose();
-}
-
-/// Stiffness of a bond along e, of group 1, against relative rotation.
-Eigen::Matrix3cd turning(const Bending& bending, const Eigen::Vector3d& e) {
-  const Eigen::Matrix3d along = e * e.transpose(), across = Eigen::Matrix3d::Identity() - along;
-  return (bending.k_b * across + bending.k_t * along).cast<Complex>();
-}
+using Matrix6c = Eigen::Matrix<Complex, 6, 6>;
 
 /// k of a cell (de/dilatation.hpp) of the endless lattice.
 double endless_cell(const Lattice& lattice) {
@@ -43,13 +32,6 @@ double endless_cell(const Lattice& lattice) {
 bool has_cells(const Lattice& lattice) {
   return std::any_of(lattice.dilating.begin(), lattice.dilating.end(),
                      [](std::uint8_t here) { return here & dilating::cell; });
-}
-
-/// a as a matrix: (θ × a) = −[a]× θ.
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
-  Eigen::Matrix3d m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
 }
 
 /// q of waves (u) for the cell with its lowest corner at the origin: q = Σ_a s_a·u e^{iβ·a}.
@@ -65,23 +47,24 @@ Eigen::Vector3cd swelling(const Eigen::Vector3d& beta) {
 /// Largest ω² of waves with phase advance β = 2 r κ per pitch, each component in [0, π].
 double fastest(const Lattice& lattice, const EndlessBond& bonds, double cell, const Eigen::Vector3d& beta) {
   const double r = lattice.radius();
-  Matrix6 D = Matrix6::Zero();
+  Matrix6c D = Matrix6c::Zero();
   for (int d = 9; d < 18; ++d) {
     const Eigen::Vector3d e(directions[d][0], directions[d][1], directions[d][2]);
     const Complex phase = std::polar(1.0, beta.dot(e));
     Eigen::Matrix<Complex, 3, 6> B;
     B.leftCols<3>() = (phase - 1.0) * Eigen::Matrix3cd::Identity();
     B.rightCols<3>() = (phase + 1.0) * cross_matrix(r * e).cast<Complex>();
-    D += B.adjoint() * stiffness(bonds.of(group(d)), e).cast<Complex>() * B;
-    if (group(d) == 1) D.bottomRightCorner<3, 3>() += std::norm(phase - 1.0) * turning(bonds, e);
+    D += B.adjoint() * spring_matrix(bonds.of(group(d)), e).cast<Complex>() * B;
+    if (group(d) == 1)
+      D.bottomRightCorner<3, 3>() += std::norm(phase - 1.0) * turning_matrix(bonds, e).cast<Complex>();
   }
   const Eigen::Vector3cd q = swelling(beta);
   D.topLeftCorner<3, 3>() += cell * q.conjugate() * q.transpose();
   Eigen::Matrix<double, 6, 1> scale;
   scale << Eigen::Vector3d::Constant(1 / std::sqrt(lattice.mass)),
       Eigen::Vector3d::Constant(1 / std::sqrt(lattice.inertia));
-  const Matrix6 A = scale.cast<Complex>().asDiagonal() * D * scale.cast<Complex>().asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Matrix6>(A, Eigen::EigenvaluesOnly).eigenvalues()(5);
+  const Matrix6c A = scale.cast<Complex>().asDiagonal() * D * scale.cast<Complex>().asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Matrix6c>(A, Eigen::EigenvaluesOnly).eigenvalues()(5);
 }
 
 /// The bonds of a lattice far from its faces.
@@ -120,7 +103,7 @@ Recovered recovered_constants(const Lattice& lattice) {
     for (int d = 9; d < 18; ++d) {
       const Eigen::Vector3d e(directions[d][0], directions[d][1], directions[d][2]);
       const Eigen::Vector3d relative = strain * (2 * r * e);
-      energy += 0.5 * relative.dot(stiffness(bonds.of(group(d)), e) * relative);
+      energy += 0.5 * relative.dot(spring_matrix(bonds.of(group(d)), e) * relative);
     }
     const double q = 8 * r * strain.trace();  // of a cell
     return (energy + 0.5 * cell * q * q) / volume;

@@ -12,19 +12,11 @@
 
 #include <cmath>
 
-#include "core/pack.hpp"
 #include "core/parallel.hpp"
+#include "core/triple.hpp"
 
 namespace geist::de {
 namespace {
-
-/// c = a × b
-template <class T>
-GEIST_INLINE void cross(const T (&a)[3], const T (&b)[3], T (&c)[3]) {
-  c[0] = fma(a[1], b[2], -(a[2] * b[1]));
-  c[1] = fma(a[2], b[0], -(a[0] * b[2]));
-  c[2] = fma(a[0], b[1], -(a[1] * b[0]));
-}
 
 /// H ← H + (exp(ψ×) − I)(I + H)
 template <class T>

@@ -13,6 +13,27 @@ namespace geist::de {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
+/// K of a bond along the step e, in the lattice's axes.
+inline Eigen::Matrix3d spring_matrix(double shear, double along, const Eigen::Vector3d& e) {
+  return shear * Eigen::Matrix3d::Identity() + along * e * e.transpose();
+}
+inline Eigen::Matrix3d spring_matrix(const ElasticBond& law, const Eigen::Vector3d& e) {
+  return spring_matrix(law.k_s, (law.k_n - law.k_s) / e.squaredNorm(), e);
+}
+
+/// Stiffness of a bond along e, of group 1, against relative rotation.
+inline Eigen::Matrix3d turning_matrix(const Bending& law, const Eigen::Vector3d& e) {
+  const Eigen::Matrix3d along = e * e.transpose(), across = Eigen::Matrix3d::Identity() - along;
+  return law.k_b * across + law.k_t * along;
+}
+
+/// a as a matrix: [a]× v = a × v.
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
 /// How a bond is strained: (d, θ_j − θ_i) = B_i (u_i, θ_i) + B_j (u_j, θ_j).
 struct BondStrain {
   Matrix6 B_i, B_j;
