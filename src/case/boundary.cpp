@@ -163,27 +163,6 @@ std::vector<Load> make_loads(const Case& input, const Selector& selector) {
   return loads;
 }
 
-void list_acted_on(Simulation& sim) {
-  std::vector<std::vector<std::size_t>> sites(sim.model.lattices.size());
-  for (const HeldComponent& h : sim.supports.held)
-    if (h.lattice >= 0) sites[h.lattice].push_back(h.place);
-  for (const Load& load : sim.loads)
-    for (const ParticleForce& p : load.particles) sites[p.lattice].push_back(p.site);
-  for (std::size_t l = 0; l < sites.size(); ++l) list_sites(sim.model.lattices[l], sites[l]);
-  for (Load& load : sim.loads)
-    for (ParticleForce& p : load.particles) p.slot = listed_slot(sim.model.lattices[p.lattice], p.site);
-  for (HeldComponent& h : sim.supports.held) {
-    const auto bit = static_cast<std::uint8_t>(1 << h.component);
-    if (h.lattice < 0) {
-      sim.model.mesh.held[h.place] |= bit;
-      continue;
-    }
-    Lattice& lattice = sim.model.lattices[h.lattice];
-    h.slot = listed_slot(lattice, h.place);
-    lattice.listed_held[h.slot] |= bit;
-  }
-}
-
 void set_initial_motion(Model& model, const Case& input, const Selector& selector) {
   for (const InitialSpec& spec : input.initial) {
     const Selection selection = select_some(input, selector, spec.where);

@@ -9,10 +9,6 @@ namespace geist {
 Supports make_supports(const Case& input, const Selector& selector);
 std::vector<Load> make_loads(const Case& input, const Selector& selector);
 
-/// Have the lattices hand over the force on every particle that a load or a support acts on, and mark what is
-/// held.
-void list_acted_on(Simulation& sim);
-
 /// Motion at time 0.
 void set_initial_motion(Model& model, const Case& input, const Selector& selector);
 

@@ -135,9 +135,7 @@ std::array<double, 6> centre_stress(Kinematics kinematics, const Corners<double>
 
 /// Density of the region that element e belongs to.
 double density(const Mesh& mesh, std::size_t e) {
-  for (const HexRegion& r : mesh.regions)
-    if (e >= r.first && e < r.first + r.count) return r.material.density;
-  return 0;
+  return mesh.regions[region_of(mesh, static_cast<std::int32_t>(e))].material.density;
 }
 
 std::array<double, 8> masses(const Mesh& mesh, std::size_t e, double rho) {

@@ -66,4 +66,8 @@ class Simulation {
   double initial_energy_ = 0;
 };
 
+/// Have the lattices hand over the force on every particle that a load or a support acts on, and mark what is
+/// held.
+void list_acted_on(Simulation& sim);
+
 }  // namespace geist

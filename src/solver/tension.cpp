@@ -35,17 +35,14 @@ Load pull(const Lattice& bar) {
 }
 
 /// As much as keeps it in place: three components at one corner, two and one at others.
-void hold(Simulation& sim) {
-  const Grid& grid = sim.model.lattices[0].grid;
-  sim.supports.motions.push_back({});
-  const auto fix = [&](std::size_t s, std::int32_t c) {
-    sim.supports.held.push_back({0, s, listed_slot(sim.model.lattices[0], s), c, 0});
-    sim.model.lattices[0].listed_held[static_cast<std::size_t>(sim.supports.held.back().slot)] |=
-        static_cast<std::uint8_t>(1 << c);
-  };
+Supports hold(const Grid& grid) {
+  Supports supports;
+  supports.motions.push_back({});
+  const auto fix = [&](std::size_t s, std::int32_t c) { supports.held.push_back({0, s, -1, c, 0}); };
   const std::size_t a = grid.index(0, 0, 0), b = grid.index(length - 1, 0, 0),
                     c = grid.index(0, width - 1, 0);
   fix(a, 0), fix(a, 1), fix(a, 2), fix(b, 1), fix(b, 2), fix(c, 2);
+  return supports;
 }
 
 Tension measure(const Lattice& bar) {
@@ -77,11 +74,8 @@ std::optional<Tension> tension_test(const Lattice& like) {
     return std::nullopt;
   }
   sim.loads.push_back(pull(sim.model.lattices[0]));
-  std::vector<std::size_t> sites;
-  for (const ParticleForce& p : sim.loads[0].particles) sites.push_back(p.site);
-  list_sites(sim.model.lattices[0], sites);
-  for (ParticleForce& p : sim.loads[0].particles) p.slot = listed_slot(sim.model.lattices[0], p.site);
-  hold(sim);
+  sim.supports = hold(sim.model.lattices[0].grid);
+  list_acted_on(sim);
   if (find_equilibrium(sim, {}).end != Equilibrium::End::found) return std::nullopt;
   return measure(sim.model.lattices[0]);
 }
