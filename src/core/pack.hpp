@@ -4,10 +4,14 @@
 // elements at once. Multiply-adds are written fma(a, b, c) by name and rounded once on every machine; the
 // compiler may not form its own (-ffp-contract=off). So the bits of a result do not depend on the instruction
 // set, only the speed does.
+//
+// The number of lanes is a power of two, 8 unless GEIST_LANES says otherwise. With 1 every kernel is compiled
+// as a machine wants it that gives each item a thread of its own: docs/architecture.md, "Other machines".
 #pragma once
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #if defined(__AVX512F__) || defined(__FMA__)
 #include <immintrin.h>
@@ -15,7 +19,10 @@
 
 namespace geist {
 
-inline constexpr int lanes = 8;
+#ifndef GEIST_LANES
+#define GEIST_LANES 8
+#endif
+inline constexpr int lanes = GEIST_LANES;
 
 using Pack = double __attribute__((vector_size(lanes * sizeof(double))));
 using PackInt = std::int64_t __attribute__((vector_size(lanes * sizeof(std::int64_t))));
@@ -29,14 +36,14 @@ GEIST_INLINE Pack load(const double* p) {
 }
 GEIST_INLINE void store(double* p, Pack a) { std::memcpy(p, &a, sizeof a); }
 
-GEIST_INLINE Pack broadcast(double s) { return Pack{s, s, s, s, s, s, s, s}; }
+GEIST_INLINE Pack broadcast(double s) { return s - Pack{}; }
 
 /// a·b + c, rounded once.
 GEIST_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
 GEIST_INLINE Pack fma(Pack a, Pack b, Pack c) {
-#if defined(__AVX512F__)
+#if GEIST_LANES == 8 && defined(__AVX512F__)
   return (Pack)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
-#elif defined(__FMA__)
+#elif GEIST_LANES == 8 && defined(__FMA__)
   union Halves {
     Pack whole;
     __m256d half[2];
@@ -58,7 +65,7 @@ GEIST_INLINE Pack fma(Pack a, double b, Pack c) { return fma(a, broadcast(b), c)
 /// The value of type T (double or Pack) all of whose lanes are s.
 template <class T>
 GEIST_INLINE T constant(double s) {
-  if constexpr (sizeof(T) == sizeof(double))
+  if constexpr (std::is_same_v<T, double>)
     return s;
   else
     return broadcast(s);
@@ -67,7 +74,9 @@ GEIST_INLINE T constant(double s) {
 /// Sum of the lanes in a fixed order.
 GEIST_INLINE double sum_lanes(double a) { return a; }
 GEIST_INLINE double sum_lanes(Pack a) {
-  return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+  for (int half = lanes / 2; half > 0; half /= 2)
+    for (int l = 0; l < half; ++l) a[l] += a[l + half];
+  return a[0];
 }
 
 }  // namespace geist

@@ -135,7 +135,7 @@ struct ClassBonds : Bending {
   }
   template <int D>
   GEIST_INLINE T gather(const std::array<double, 18> BondClass::*member) const {
-    if constexpr (count == 1) {
+    if constexpr (std::is_same_v<T, double>) {
       return (of[0]->*member)[D];
     } else {
       T k;

@@ -30,7 +30,7 @@ inline MotionView view(const Field<6>& f) { return {{f[0], f[1], f[2], f[3], f[4
 
 template <class T>
 GEIST_INLINE T read(const double* p) {
-  if constexpr (sizeof(T) == sizeof(double))
+  if constexpr (std::is_same_v<T, double>)
     return *p;
   else
     return load(p);

@@ -13,7 +13,9 @@ namespace geist::fe {
 
 /// {p[i[0]], …, p[i[7]]}.
 GEIST_INLINE Pack gather(const double* p, const std::array<std::int32_t, lanes>& i) {
-  return Pack{p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]};
+  Pack a;
+  for (int l = 0; l < lanes; ++l) a[l] = p[i[l]];
+  return a;
 }
 
 /// A vector field by node, component by component.

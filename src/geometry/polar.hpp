@@ -16,7 +16,11 @@ namespace geist {
 
 /// Any lane of a mask?
 GEIST_INLINE bool any(bool a) { return a; }
-GEIST_INLINE bool any(PackInt a) { return ((a[0] | a[4]) | (a[2] | a[6])) | ((a[1] | a[5]) | (a[3] | a[7])); }
+GEIST_INLINE bool any(PackInt a) {
+  for (int half = lanes / 2; half > 0; half /= 2)
+    for (int l = 0; l < half; ++l) a[l] |= a[l + half];
+  return a[0];
+}
 
 /// ½ R⁻ᵀ − ½ R; returns the sum of its squares. Not a number if det R ≤ 0.
 template <class T>
