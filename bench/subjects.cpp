@@ -96,17 +96,11 @@ void add_finite_lattice_kernels(Subject& s) {
 void add_element_kernels(Subject& s) {
   Mesh& mesh = s.simulation().model.mesh;
   s.items = static_cast<double>(mesh.elements.size());
-  s.working_set = mesh.corner_force.size() * sizeof(double) + mesh.blocks.size() * sizeof(HexBlock) +
-                  (mesh.gather.size() + mesh.nodes()) * sizeof(std::int32_t) +
+  s.working_set = mesh.blocks.size() * (sizeof(HexBlock) + sizeof(mesh.elements[0])) +
                   mesh.nodes() * (13 * sizeof(double) + 1);
   s.kernels = {{"internal forces", [&] { fe::internal_forces(mesh); },
                 internal_forces(material_of(s.name), turns(s.name))},
-               {"gather and kick",
-                [&] {
-                  gather_internal_forces(mesh);
-                  kick_nodes(mesh, de::Kick{});
-                },
-                gather_and_kick()},
+               {"kick", [&] { kick_nodes(mesh, de::Kick{}); }, node_kick()},
                {"drift", [&] { drift(mesh.u, mesh.v, 0); }, node_drift()}};
 }
 

@@ -22,7 +22,7 @@ Work finite_drift();
 
 /// By element; a large block has as many nodes as elements.
 Work internal_forces(const std::string& formulation, bool finite);
-Work gather_and_kick();
+Work node_kick();
 Work node_drift();
 
 }  // namespace geist::bench

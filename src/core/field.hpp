@@ -70,4 +70,12 @@ class Field {
   std::size_t size_ = 0;
 };
 
+/// Make everything zero again.
+template <int N>
+void clear(Field<N>& f) {
+  for (int c = 0; c < N; ++c)
+    for_each(
+        f.size(), [p = f[c]](std::size_t i) { p[i] = 0; }, 1 << 14);
+}
+
 }  // namespace geist

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "core/parallel.hpp"
 #include "fe/corotational.hpp"
@@ -16,11 +17,6 @@ namespace {
 
 /// Fewer blocks than this are not worth waking the threads.
 constexpr std::size_t grain = 16;
-
-/// How many of a block's lanes are elements.
-int real_lanes(const HexRegion& region, std::size_t block_of_region) {
-  return static_cast<int>(std::min<std::size_t>(lanes, region.count - block_of_region * lanes));
-}
 
 double sum_real_lanes(Pack a, int real) {
   double s = 0;
@@ -55,61 +51,53 @@ struct Blocks {
   }
 };
 
-/// Forces of a region that dissipates nothing.
+/// Add the forces of some blocks of one region to the nodes; returns the power that is dissipated.
 template <class Formulation>
-void forces(Mesh& mesh, const HexRegion& region, Formulation formulation) {
-  const NodeField X(mesh.X), u(mesh.u);
+double add_forces(Mesh& mesh, std::span<const std::int32_t> sweep, Formulation formulation, double factor) {
+  const NodeField X(mesh, mesh.X), u(mesh, mesh.u), v(mesh, mesh.v);
+  const NodeForces total(mesh, mesh.f);
   const Blocks blocks(mesh);
-  double* const out = mesh.corner_force.data();
-  const std::size_t first = region.first_block;
-  for_each(
-      region.blocks(),
-      [=](std::size_t i) {
-        const HexBlock& block = blocks.block[first + i];
-        blocks.visit(first + i, formulation, [&](const auto& own) {
-          Corners<Pack> f;
-          const Corners<Pack> w = u.at(block);
-          own.forces(X.at(block), w, w, f);
-          store_forces(f, out, first + i);
-        });
-      },
-      grain);
+  double power = 0;
+  for (const std::int32_t b : sweep) {
+    const HexBlock& block = blocks.block[b];
+    Corners<Pack> f;
+    const Pack p = blocks.visit(static_cast<std::size_t>(b), formulation, [&](const auto& own) {
+      const Corners<Pack> w = u.at(block);
+      if constexpr (Formulation::uses_velocity) return own.forces(X.at(block), w, v.at(block), f);
+      return own.forces(X.at(block), w, w, f);
+    });
+    total.add(block, factor, f);
+    if constexpr (Formulation::uses_velocity) power += sum_real_lanes(p, block.count);
+  }
+  return power;
 }
 
-/// Forces of a region that needs velocities; returns the power it dissipates, added up in order of blocks.
-template <class Formulation>
-double viscous_forces(Mesh& mesh, const HexRegion& region, Formulation formulation) {
-  const NodeField X(mesh.X), u(mesh.u), v(mesh.v);
-  const Blocks blocks(mesh);
-  double* const out = mesh.corner_force.data();
-  std::vector<double> power(region.blocks());
-  double* const powers = power.data();
-  for_each(
-      region.blocks(),
-      [=, &region](std::size_t i) {
-        const std::size_t b = region.first_block + i;
-        const HexBlock& block = blocks.block[b];
-        Corners<Pack> f;
-        const Pack p = blocks.visit(b, formulation, [&](const auto& own) {
-          return own.forces(X.at(block), u.at(block), v.at(block), f);
-        });
-        store_forces(f, out, b);
-        powers[i] = sum_real_lanes(p, real_lanes(region, i));
-      },
-      grain);
-  return std::accumulate(power.begin(), power.end(), 0.0);
+/// The same for blocks of any regions, in ascending order.
+double add_slab(Mesh& mesh, std::span<const std::int32_t> slab, double factor) {
+  double power = 0;
+  for (const HexRegion& region : mesh.regions) {
+    const auto end = std::lower_bound(slab.begin(), slab.end(),
+                                      static_cast<std::int32_t>(region.first_block + region.blocks()));
+    const std::size_t n = static_cast<std::size_t>(end - slab.begin());
+    if (n == 0) continue;
+    visit_formulation(region.formulation, parameters(region), [&](auto formulation) {
+      power += add_forces(mesh, slab.first(n), formulation, factor);
+    });
+    slab = slab.subspan(n);
+  }
+  return power;
 }
 
 template <class Formulation>
 Energies region_energies(const Mesh& mesh, const HexRegion& region, Formulation formulation) {
-  const NodeField X(mesh.X), u(mesh.u);
+  const NodeField X(mesh, mesh.X), u(mesh, mesh.u);
   const Blocks blocks(mesh);
   return sum<Energies>(region.blocks(), [=, &region](std::size_t i) {
     const std::size_t b = region.first_block + i;
     const Stored<Pack> e = blocks.visit(b, formulation, [&](const auto& own) {
       return own.energy(X.at(blocks.block[b]), u.at(blocks.block[b]));
     });
-    const int real = real_lanes(region, i);
+    const int real = blocks.block[b].count;
     return Energies{sum_real_lanes(e.strain, real), sum_real_lanes(e.hourglass, real)};
   });
 }
@@ -146,7 +134,7 @@ std::array<double, 8> masses(const Mesh& mesh, std::size_t e, double rho) {
 }
 
 BlockCut whole_block(const Mesh& mesh, const HexBlock& block) {
-  const MeanGradient<Pack> m = mean_gradient(to_modes(NodeField(mesh.X).at(block)));
+  const MeanGradient<Pack> m = mean_gradient(to_modes(NodeField(mesh, mesh.X).at(block)));
   BlockCut whole;
   whole.volume = m.volume;
   Modes<Pack> g = m.g;
@@ -160,16 +148,21 @@ BlockCut whole_block(const Mesh& mesh, const HexBlock& block) {
 
 }  // namespace
 
-double internal_forces(Mesh& mesh) {
-  double power = 0;
-  for (const HexRegion& region : mesh.regions)
-    visit_formulation(region.formulation, parameters(region), [&](auto formulation) {
-      if constexpr (decltype(formulation)::uses_velocity)
-        power += viscous_forces(mesh, region, formulation);
-      else
-        forces(mesh, region, formulation);
+double add_internal_forces(Mesh& mesh, const Sweep& sweep, double factor) {
+  std::vector<double> power(sweep.slabs());
+  for (std::size_t c = 0; c < sweep.colours(); ++c) {
+    const std::size_t first = sweep.colour_begin[c];
+    for_each(sweep.colour_begin[c + 1] - first, [=, &mesh, &sweep, powers = power.data()](std::size_t i) {
+      const std::size_t begin = sweep.slab_begin[first + i], end = sweep.slab_begin[first + i + 1];
+      powers[first + i] = add_slab(mesh, std::span(sweep.blocks).subspan(begin, end - begin), factor);
     });
-  return power;
+  }
+  return std::accumulate(power.begin(), power.end(), 0.0);
+}
+
+double internal_forces(Mesh& mesh) {
+  clear(mesh.f);
+  return add_internal_forces(mesh, mesh.sweep, 1);
 }
 
 Energies energies(const Mesh& mesh) {

@@ -9,9 +9,12 @@
 
 namespace geist::fe {
 
-/// Forces of all elements on their corners, −f_I^int of (1) by element, from mesh.u (and mesh.v for viscous
-/// hourglass control) to mesh.corner_force. Returns the power that viscous hourglass control dissipates,
-/// otherwise 0.
+/// mesh.f += factor · the forces of a sweep's elements on their corners, −f_I^int of (1), from mesh.u (and
+/// mesh.v for viscous hourglass control). Returns the power that their viscous hourglass control dissipates,
+/// otherwise 0, without the factor.
+double add_internal_forces(Mesh& mesh, const Sweep& sweep, double factor);
+
+/// mesh.f = −f_I^int of (1), the forces of all elements. Returns their power as above.
 double internal_forces(Mesh& mesh);
 
 /// Energy stored by strain and by hourglass control.

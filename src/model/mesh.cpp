@@ -1,43 +1,59 @@
 #include "model/mesh.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <numeric>
 
 namespace geist {
 namespace {
+
+/// Whether consecutive elements have consecutive nodes at every corner.
+bool is_run(const Mesh& mesh, const HexBlock& block) {
+  if (block.count < lanes) return false;
+  const auto* const element = &mesh.elements[static_cast<std::size_t>(block.first)];
+  for (int l = 1; l < lanes; ++l)
+    for (int a = 0; a < 8; ++a)
+      if (element[l][a] != element[0][a] + l) return false;
+  return true;
+}
 
 void make_blocks(Mesh& mesh) {
   mesh.blocks.clear();
   for (HexRegion& region : mesh.regions) {
     region.first_block = mesh.blocks.size();
-    for (std::size_t b = 0; b < region.blocks(); ++b) {
-      HexBlock block;
-      for (int l = 0; l < lanes; ++l) {
-        const std::size_t e = region.first + std::min(b * lanes + l, region.count - 1);
-        for (int a = 0; a < 8; ++a) block.node[a][l] = mesh.elements[e][a];
-      }
+    for (std::size_t i = 0; i < region.count; i += lanes) {
+      HexBlock block{static_cast<std::int32_t>(region.first + i),
+                     static_cast<std::int16_t>(std::min<std::size_t>(lanes, region.count - i)), false};
+      block.run = is_run(mesh, block);
       mesh.blocks.push_back(block);
     }
   }
 }
 
-/// Call visit(node, slot) for every corner of every element, in order.
+/// Call visit(node) for every corner of blocks[begin] … blocks[end − 1].
 template <class F>
-void visit_corners(const Mesh& mesh, F visit) {
-  for (const HexRegion& region : mesh.regions)
-    for (std::size_t i = 0; i < region.count; ++i)
-      for (int a = 0; a < 8; ++a)
-        visit(mesh.elements[region.first + i][a],
-              corner_slot(region.first_block + i / lanes, a, static_cast<int>(i % lanes)));
+void visit_nodes(const Mesh& mesh, const std::vector<std::int32_t>& blocks, std::size_t begin,
+                 std::size_t end, F visit) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const HexBlock& block = mesh.blocks[static_cast<std::size_t>(blocks[i])];
+    for (int l = 0; l < block.count; ++l)
+      for (const std::int32_t node : mesh.elements[static_cast<std::size_t>(block.first + l)]) visit(node);
+  }
 }
 
-void make_gather_lists(Mesh& mesh) {
-  mesh.gather_begin.assign(mesh.nodes() + 1, 0);
-  visit_corners(mesh, [&](int node, std::size_t) { ++mesh.gather_begin[node + 1]; });
-  for (std::size_t i = 0; i < mesh.nodes(); ++i) mesh.gather_begin[i + 1] += mesh.gather_begin[i];
-  mesh.gather.resize(mesh.gather_begin.back());
-  std::vector<std::int32_t> next(mesh.gather_begin.begin(), mesh.gather_begin.end() - 1);
-  visit_corners(
-      mesh, [&](int node, std::size_t slot) { mesh.gather[next[node]++] = static_cast<std::int32_t>(slot); });
+/// Slab after slab (32 at most) the least colour that none of its nodes has seen.
+std::vector<int> colours_of(const Mesh& mesh, const std::vector<std::int32_t>& blocks,
+                            const std::vector<std::size_t>& limits) {
+  std::vector<std::uint32_t> seen(mesh.nodes(), 0);  // bit c: a slab of colour c has the node
+  std::vector<int> colours;
+  for (std::size_t s = 0; s + 1 < limits.size(); ++s) {
+    std::uint32_t taken = 0;
+    visit_nodes(mesh, blocks, limits[s], limits[s + 1], [&](std::int32_t node) { taken |= seen[node]; });
+    colours.push_back(std::countr_one(taken));
+    const std::uint32_t own = std::uint32_t{1} << colours.back();
+    visit_nodes(mesh, blocks, limits[s], limits[s + 1], [&](std::int32_t node) { seen[node] |= own; });
+  }
+  return colours;
 }
 
 }  // namespace
@@ -56,16 +72,36 @@ const HexCut* cut_of(const Mesh& mesh, std::size_t element) {
   return it != mesh.cuts.end() && it->element == e ? &*it : nullptr;
 }
 
+Sweep make_sweep(const Mesh& mesh, const std::vector<std::int32_t>& blocks) {
+  constexpr std::size_t most_slabs = 32, least_blocks = 8;
+  const std::size_t n = blocks.size(), slabs = std::min(most_slabs, (n + least_blocks - 1) / least_blocks);
+  std::vector<std::size_t> limits;
+  for (std::size_t s = 0; s <= slabs; ++s) limits.push_back(s * n / std::max<std::size_t>(slabs, 1));
+  const std::vector<int> colours = colours_of(mesh, blocks, limits);
+  Sweep sweep{.blocks = {}, .slab_begin = {0}, .colour_begin = {0}};
+  for (int c = 0; std::count(colours.begin(), colours.end(), c); ++c) {
+    for (std::size_t s = 0; s < slabs; ++s) {
+      if (colours[s] != c) continue;
+      sweep.blocks.insert(sweep.blocks.end(), blocks.begin() + static_cast<std::ptrdiff_t>(limits[s]),
+                          blocks.begin() + static_cast<std::ptrdiff_t>(limits[s + 1]));
+      sweep.slab_begin.push_back(sweep.blocks.size());
+    }
+    sweep.colour_begin.push_back(sweep.slabs());
+  }
+  return sweep;
+}
+
 void finish(Mesh& mesh) {
   make_blocks(mesh);
-  make_gather_lists(mesh);
+  std::vector<std::int32_t> all(mesh.blocks.size());
+  std::iota(all.begin(), all.end(), 0);
+  mesh.sweep = make_sweep(mesh, all);
   const std::size_t n = mesh.nodes();
   mesh.X = Field<3>(n), mesh.u = Field<3>(n), mesh.v = Field<3>(n), mesh.v_before = Field<3>(n);
   mesh.f = Field<3>(n);
   for (std::size_t i = 0; i < n; ++i) mesh.X.set(i, mesh.points[i]);
   mesh.mass.assign(n, 0.0);
   mesh.held.assign(n, 0);
-  mesh.corner_force.assign(mesh.blocks.size() * 8 * 3 * lanes, 0.0);
 }
 
 }  // namespace geist

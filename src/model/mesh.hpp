@@ -1,7 +1,8 @@
 // Mesh: the nodes and hexahedra of all continuum regions. Arrays, no physics.
 //
-// Hexahedra are kept in blocks of eight (the lanes of a Pack); every region begins a new block. A block that
-// is not full repeats its last element in the lanes left over, and nobody reads what is computed there.
+// Hexahedra are computed with in blocks of eight (the lanes of a Pack); every region begins a new block. A
+// block that is not full repeats its last element in the lanes left over, and nobody reads what is computed
+// there.
 //
 // Corners are numbered as in (8), Table 1 of the journal paper and VTK_HEXAHEDRON:
 //
@@ -25,9 +26,22 @@
 
 namespace geist {
 
-/// Eight hexahedra side by side: node[corner][lane].
+/// Consecutive hexahedra side by side, those in the lanes of a Pack.
 struct HexBlock {
-  std::array<std::array<std::int32_t, lanes>, 8> node;
+  std::int32_t first;  ///< element
+  std::int16_t count;  ///< 1 … 8
+  bool run;            ///< eight whose corners a are nodes one after the other, elements[first][a] + 0 … 7
+};
+
+/// An order in which blocks may add to the nodes: in slabs, one after the other within a slab, slabs of one
+/// colour at the same time since they share no node, and colour after colour. It depends on the mesh and the
+/// set of blocks alone, so sums have the same bits for any number of threads.
+struct Sweep {
+  std::vector<std::int32_t> blocks;       ///< slab after slab
+  std::vector<std::size_t> slab_begin;    ///< slab s is blocks[slab_begin[s]] …; one more at the end
+  std::vector<std::size_t> colour_begin;  ///< colour c has slabs colour_begin[c] …; one more at the end
+  std::size_t slabs() const { return slab_begin.empty() ? 0 : slab_begin.size() - 1; }
+  std::size_t colours() const { return colour_begin.empty() ? 0 : colour_begin.size() - 1; }
 };
 
 /// A region of hexahedra: elements [first, first + count), blocks [first_block, first_block + blocks()).
@@ -63,30 +77,23 @@ struct Mesh {
   std::vector<std::array<std::int32_t, 8>> elements;  ///< corner nodes, by element, region after region
   std::vector<HexRegion> regions;
   std::vector<HexBlock> blocks;
+  Sweep sweep;  ///< of all blocks
 
   // Consistent method only: elements that are cut, in order, and by block; −1: no element of it is
   std::vector<HexCut> cuts;
   std::vector<BlockCut> block_cuts;
   std::vector<std::int32_t> cut_of_block;  ///< empty if there are no cuts
 
-  // Where node I finds the forces of its element corners: corner_force[gather[k] + 8 c], k in
-  // [gather_begin[I], gather_begin[I + 1]), component c. In order of elements.
-  std::vector<std::int32_t> gather_begin, gather;
-
   // State (n = node): displacement u^n, velocity v^{n+1/2}, and what is computed from them
-  Field<3> X;                        ///< reference positions again, by component, for kernels
-  Field<3> u, v;                     ///< displacement, velocity (at the half step)
-  Field<3> v_before;                 ///< velocity half a step before u's time; valid on observed steps only
-  Field<3> f;                        ///< total force: internal, coupling and applied
-  std::vector<double> mass;          ///< lumped, by node
-  std::vector<std::uint8_t> held;    ///< by node: bit c is set if a support prescribes component c
-  std::vector<double> corner_force;  ///< [block][corner][component][lane]
+  Field<3> X;                      ///< reference positions again, by component, for kernels
+  Field<3> u, v;                   ///< displacement, velocity (at the half step)
+  Field<3> v_before;               ///< velocity half a step before u's time; valid on observed steps only
+  Field<3> f;                      ///< total force: internal, coupling and applied
+  std::vector<double> mass;        ///< lumped, by node
+  std::vector<std::uint8_t> held;  ///< by node: bit c is set if a support prescribes component c
 
   std::size_t nodes() const { return points.size(); }
 };
-
-/// Places of block b, corner a, component 0, lane l in corner_force; component c is 8 c further on.
-constexpr std::size_t corner_slot(std::size_t b, int a, int l) { return (b * 8 + a) * 3 * lanes + l; }
 
 /// The cut of an element, if it is cut.
 const HexCut* cut_of(const Mesh& mesh, std::size_t element);
@@ -94,8 +101,10 @@ const HexCut* cut_of(const Mesh& mesh, std::size_t element);
 /// Number of the region that an element belongs to.
 std::int32_t region_of(const Mesh& mesh, std::int32_t element);
 
-/// Make the blocks, the gather lists and the (zero) state of a mesh whose points, elements and regions are
-/// set.
+/// A sweep over blocks given by number in ascending order.
+Sweep make_sweep(const Mesh& mesh, const std::vector<std::int32_t>& blocks);
+
+/// Make the blocks, their sweep and the (zero) state of a mesh whose points, elements and regions are set.
 void finish(Mesh& mesh);
 
 }  // namespace geist

@@ -167,10 +167,9 @@ std::string describe(const Case& input, const Built& built) {
 
 double memory_of(const Model& model) {
   const Mesh& mesh = model.mesh;
-  double bytes = static_cast<double>(mesh.nodes()) * (3 * 8 * 6 + 8 + 1 + 4);
-  bytes += static_cast<double>(mesh.elements.size()) * (8 * 4 + 8 * 4) +
-           static_cast<double>(mesh.blocks.size()) * 8 * 8 * 4;
-  bytes += static_cast<double>(mesh.corner_force.size()) * 8;
+  double bytes = static_cast<double>(mesh.nodes()) * (3 * 8 * 6 + 8 + 1);
+  bytes += static_cast<double>(mesh.elements.size()) * (8 * 4) +
+           static_cast<double>(mesh.blocks.size()) * (sizeof(HexBlock) + 4);
   for (const Lattice& l : model.lattices)
     bytes += static_cast<double>(l.grid.size()) * (18 * 8 + 4) +
              static_cast<double>(l.listed.size()) * (6 * 8 + 9) +

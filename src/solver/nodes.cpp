@@ -8,18 +8,6 @@
 
 namespace geist {
 
-void gather_internal_forces(Mesh& mesh) {
-  double* const f[3] = {mesh.f[0], mesh.f[1], mesh.f[2]};
-  const auto gather_one = [=, corner_force = mesh.corner_force.data(), slot = mesh.gather.data(),
-                           begin = mesh.gather_begin.data()](std::size_t i) {
-    double s[3] = {0, 0, 0};
-    for (std::int32_t k = begin[i]; k < begin[i + 1]; ++k)
-      for (int c = 0; c < 3; ++c) s[c] += corner_force[slot[k] + lanes * c];
-    for (int c = 0; c < 3; ++c) f[c][i] = s[c];
-  };
-  for_each(mesh.nodes(), gather_one, 500);
-}
-
 de::KickSums kick_nodes(Mesh& mesh, const de::Kick& kick) {
   double* const v[3] = {mesh.v[0], mesh.v[1], mesh.v[2]};
   const double* const f[3] = {mesh.f[0], mesh.f[1], mesh.f[2]};

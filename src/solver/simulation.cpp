@@ -121,7 +121,6 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   }
   {
     const auto timing = timers.time(Phase::nodes);
-    gather_internal_forces(model.mesh);
     reactions.add(model);                 // (14)
     add_loads(loads, model, model.time);  // f^res of (1)(2)
     contacts.add_to_nodes(model.mesh);

@@ -10,7 +10,6 @@
 #include "core/parallel.hpp"
 #include "de/rotation.hpp"
 #include "fe/elements.hpp"
-#include "solver/nodes.hpp"
 
 namespace geist {
 namespace {
@@ -214,7 +213,6 @@ void StaticModel::find_forces(PlaceVector& f) {
   fe::internal_forces(model_.mesh);
   const de::Kick unit{.keep = 0, .per_mass = 1, .per_inertia = 1, .gravity = {}};
   for (Lattice& lattice : model_.lattices) de::bond_forces_and_kick(lattice, unit);
-  gather_internal_forces(model_.mesh);
   sim_.reactions.add(model_);
   places_.take(model_, f);
 }

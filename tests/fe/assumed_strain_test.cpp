@@ -152,7 +152,7 @@ double error_in_cube(int n, double nu) {
   internal_forces(mesh);  // of the exact displacements: K times the error, where nodes are free
   Eigen::VectorXd f(3 * static_cast<Eigen::Index>(mesh.nodes()));
   for (std::size_t i = 0; i < mesh.nodes(); ++i)
-    for (int d = 0; d < 3; ++d) f(3 * static_cast<Eigen::Index>(i) + d) = free[i] * node_force(mesh, i)[d];
+    for (int d = 0; d < 3; ++d) f(3 * static_cast<Eigen::Index>(i) + d) = free[i] * mesh.f.vector(i)[d];
   const Eigen::SparseMatrix<double> K = stiffness_with_held(mesh, free);
   const Eigen::VectorXd error = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(K).solve(f);
   return error.norm() / std::sqrt(static_cast<double>(n * n * n));

@@ -24,7 +24,7 @@ MatrixXd assembled(Mesh& mesh, Field<3> Mesh::*field) {
     internal_forces(mesh);
     (mesh.*field)[d % 3][d / 3] = 0;
     for (std::size_t n = 0; n < mesh.nodes(); ++n)
-      for (int c = 0; c < 3; ++c) A(3 * static_cast<int>(n) + c, d) = -node_force(mesh, n)[c];
+      for (int c = 0; c < 3; ++c) A(3 * static_cast<int>(n) + c, d) = -mesh.f.vector(n)[c];
   }
   return A;
 }

@@ -45,7 +45,7 @@ TEST(Mesh, PatchOfDistortedHexahedraHoldsConstantStress) {
         for (int o : {(d + 1) % 3, (d + 2) % 3}) share *= (X[o] == 0 || X[o] == 1 ? 0.5 : 1.0) / n;
         for (int i = 0; i < 3; ++i) expected[i] += (X[d] == 0 ? 1 : X[d] == 1 ? -1 : 0) * share * s[i][d];
       }
-      EXPECT_LT(norm(node_force(mesh, p) - expected), 1e-13) << name << " node " << p;
+      EXPECT_LT(norm(mesh.f.vector(p) - expected), 1e-13) << name << " node " << p;
     }
     for (const auto& found : centre_stresses(mesh)) {
       const double voigt[6] = {s[0][0], s[1][1], s[2][2], s[0][1], s[1][2], s[0][2]};
@@ -71,7 +71,7 @@ TEST(Mesh, PatchThatTurnsFarHoldsConstantStress) {
     for (std::size_t p = 0; p < mesh.nodes(); ++p) {
       const Vec3 X = mesh.points[p];
       if (X.x * X.y * X.z * (1 - X.x) * (1 - X.y) * (1 - X.z) > 1e-12) {
-        EXPECT_LT(norm(node_force(mesh, p)), 2e-14) << name << " node " << p;
+        EXPECT_LT(norm(mesh.f.vector(p)), 2e-14) << name << " node " << p;
       }
     }
     const auto turned = [&](int i, int j) { return s[(i + 2) % 3][(j + 2) % 3]; };
@@ -94,7 +94,8 @@ TEST(Mesh, CutHexahedraTurnToo) {
       mesh.u.set(n, Vec3{x.z, x.x, x.y} - mesh.points[n]);
     }
     const double power = internal_forces(mesh);
-    const std::vector<double> whole = mesh.corner_force;
+    std::vector<Vec3> whole;
+    for (std::size_t n = 0; n < mesh.nodes(); ++n) whole.push_back(mesh.f.vector(n));
     const Energies stored = energies(mesh);
     std::vector<HexCut> cuts(2);
     for (int e = 0; e < 2; ++e) {
@@ -107,12 +108,8 @@ TEST(Mesh, CutHexahedraTurnToo) {
     EXPECT_NEAR(internal_forces(mesh), 0.5 * power, 1e-13);
     EXPECT_NEAR(energies(mesh).strain, 0.5 * stored.strain, 1e-13);
     EXPECT_NEAR(energies(mesh).hourglass, 0.5 * stored.hourglass, 1e-13);
-    for (int a = 0; a < 8; ++a)
-      for (int c = 0; c < 3; ++c)
-        for (int l = 0; l < 2; ++l) {
-          const std::size_t i = corner_slot(0, a, l) + lanes * c;
-          EXPECT_NEAR(mesh.corner_force[i], 0.5 * whole[i], 1e-13);
-        }
+    for (std::size_t n = 0; n < mesh.nodes(); ++n)
+      EXPECT_LT(norm(mesh.f.vector(n) - 0.5 * whole[n]), 1e-13) << name;
   }
 }
 
@@ -124,8 +121,8 @@ TEST(Mesh, FirstElementTurnedInsideOut) {
   mesh.kinematics = Kinematics::finite;
   EXPECT_EQ(first_inverted(mesh), std::optional<std::size_t>(1));
   internal_forces(mesh);
-  EXPECT_TRUE(std::isnan(norm(node_force(mesh, 8))));
-  EXPECT_FALSE(std::isnan(norm(node_force(mesh, 0))));
+  EXPECT_TRUE(std::isnan(norm(mesh.f.vector(8))));
+  EXPECT_FALSE(std::isnan(norm(mesh.f.vector(0))));
   mesh.u.set(8, {std::nan(""), 0, 0});
   for (std::size_t n = 0; n < mesh.nodes(); ++n)
     if (n != 8) mesh.u.set(n, {});
@@ -163,7 +160,7 @@ TEST(Mesh, EnergiesAreHalfTheWorkOfTheForces) {
     set_random(mesh);
     internal_forces(mesh);
     double work = 0;
-    for (std::size_t n = 0; n < mesh.nodes(); ++n) work -= dot(node_force(mesh, n), mesh.u.vector(n)) / 2;
+    for (std::size_t n = 0; n < mesh.nodes(); ++n) work -= dot(mesh.f.vector(n), mesh.u.vector(n)) / 2;
     const Energies e = energies(mesh);
     EXPECT_NEAR(e.strain + e.hourglass, work, 1e-12 * work);
     EXPECT_GT(e.strain, 0);
@@ -177,7 +174,7 @@ TEST(Mesh, DissipatedPowerCountsRealElementsOnly) {
   for (std::size_t n = 0; n < mesh.nodes(); ++n) mesh.u.set(n, {});
   const double power = internal_forces(mesh);
   double work = 0;
-  for (std::size_t n = 0; n < mesh.nodes(); ++n) work -= dot(node_force(mesh, n), mesh.v.vector(n));
+  for (std::size_t n = 0; n < mesh.nodes(); ++n) work -= dot(mesh.f.vector(n), mesh.v.vector(n));
   EXPECT_GT(power, 0);
   EXPECT_NEAR(power, work, 1e-13 * power);
 }
@@ -185,19 +182,43 @@ TEST(Mesh, DissipatedPowerCountsRealElementsOnly) {
 TEST(Mesh, SameBitsForAnyNumberOfThreads) {
   const int before = omp_get_max_threads();
   for (const std::string& name : names) {
-    std::vector<double> forces, numbers;
+    std::vector<Vec3> forces, first_forces;
+    std::vector<double> numbers;
     for (int threads : {1, 3, 7}) {
       omp_set_num_threads(threads);
       Mesh mesh = box({12, 11, 13}, {1, 1, 1}, name, material, scatter_inside(0.01));
       set_random(mesh);
       const double power = internal_forces(mesh);
       const Energies e = energies(mesh);
-      if (threads == 1) forces = mesh.corner_force, numbers = {power, e.strain, e.hourglass};
-      EXPECT_EQ(forces, mesh.corner_force);
+      forces.clear();
+      for (std::size_t n = 0; n < mesh.nodes(); ++n) forces.push_back(mesh.f.vector(n));
+      if (threads == 1) first_forces = forces, numbers = {power, e.strain, e.hourglass};
+      EXPECT_EQ(forces, first_forces);
       EXPECT_EQ(numbers, (std::vector<double>{power, e.strain, e.hourglass}));
     }
   }
   omp_set_num_threads(before);
+}
+
+/// Regions of different formulations that share nodes, in one sweep and in two of every other block each.
+TEST(Mesh, SweepsAddUp) {
+  Mesh mesh = box({12, 11, 13}, {1, 1, 1}, "full", material, scatter_inside(0.01));
+  HexRegion& lower = mesh.regions[0];
+  HexRegion upper = lower;
+  lower.count = 700, upper.first = 700, upper.count -= 700, upper.formulation = "one-point-viscous";
+  mesh.regions.push_back(upper);
+  finish(mesh);
+  set_random(mesh);
+  const double power = internal_forces(mesh);
+  EXPECT_GT(power, 0);
+  std::vector<Vec3> all;
+  for (std::size_t n = 0; n < mesh.nodes(); ++n) all.push_back(mesh.f.vector(n));
+  std::vector<std::int32_t> some[2];
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) some[b % 2].push_back(static_cast<std::int32_t>(b));
+  const Sweep even = make_sweep(mesh, some[0]), odd = make_sweep(mesh, some[1]);
+  EXPECT_NEAR(add_internal_forces(mesh, even, 2) + add_internal_forces(mesh, odd, 2), power, 1e-12 * power);
+  for (std::size_t n = 0; n < mesh.nodes(); ++n)
+    EXPECT_LT(norm(mesh.f.vector(n) - 3 * all[n]), 1e-11 * norm(all[n]) + 1e-11) << n;
 }
 
 TEST(Mesh, BeamsDeflectAsPublished) {

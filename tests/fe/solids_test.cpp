@@ -60,7 +60,7 @@ TEST(RoundBodies, MoveRigidlyWithoutEnergy) {
     EXPECT_NEAR(found.strain, 0, 1e-26);
     EXPECT_NEAR(found.hourglass, 0, 1e-26);
     internal_forces(mesh);
-    for (std::size_t p = 0; p < mesh.nodes(); ++p) EXPECT_LT(norm(node_force(mesh, p)), 1e-13);
+    for (std::size_t p = 0; p < mesh.nodes(); ++p) EXPECT_LT(norm(mesh.f.vector(p)), 1e-13);
   }
 }
 

@@ -119,14 +119,6 @@ inline std::function<Vec3(Vec3)> scatter_inside(double amount) {
   };
 }
 
-/// Σ of the corner forces at a node.
-inline Vec3 node_force(const Mesh& mesh, std::size_t node) {
-  Vec3 f;
-  for (int k = mesh.gather_begin[node]; k < mesh.gather_begin[node + 1]; ++k)
-    for (int c = 0; c < 3; ++c) f[c] += mesh.corner_force[mesh.gather[k] + lanes * c];
-  return f;
-}
-
 /// Literal matrices: B-matrices at Gauss points, by the book. B_a = ∂N_a/∂x, 6 × 24.
 using MatrixB = Eigen::Matrix<double, 6, 24>;
 

@@ -1,10 +1,9 @@
-// Mesh: blocks of eight elements and the lists by which nodes gather from them.
+// Mesh: blocks of eight elements and the order in which they may add to the nodes.
 #include "model/mesh.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 #include <random>
 
 namespace geist {
@@ -34,54 +33,89 @@ Mesh random_mesh(const std::vector<std::size_t>& counts, int nodes = 40) {
 
 const std::vector<std::size_t> region_sizes{5, 8, 17, 1};
 
-TEST(Mesh, RegionsBeginNewBlocksAndTheLastElementFillsTheirLanes) {
+/// n × n × n cells, x fastest.
+Mesh cube_mesh(int n) {
+  Mesh mesh;
+  const auto node = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
+  mesh.points.resize(static_cast<std::size_t>((n + 1) * (n + 1) * (n + 1)));
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        mesh.elements.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
+                                 node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1),
+                                 node(i, j + 1, k + 1)});
+  HexRegion region;
+  region.count = mesh.elements.size();
+  mesh.regions.push_back(region);
+  finish(mesh);
+  return mesh;
+}
+
+TEST(Mesh, RegionsBeginNewBlocks) {
   const Mesh mesh = random_mesh(region_sizes);
   std::size_t next_block = 0;
   for (const HexRegion& region : mesh.regions) {
     EXPECT_EQ(region.first_block, next_block);
     EXPECT_EQ(region.blocks(), (region.count + 7) / 8);
-    for (std::size_t place = 0; place < region.blocks() * lanes; ++place) {
-      const auto& element = mesh.elements[region.first + std::min(place, region.count - 1)];
-      const HexBlock& block = mesh.blocks[next_block + place / lanes];
-      for (int a = 0; a < 8; ++a) EXPECT_EQ(block.node[a][place % lanes], element[a]);
+    std::size_t next = region.first;
+    for (; next < region.first + region.count; ++next_block) {
+      const HexBlock& block = mesh.blocks[next_block];
+      EXPECT_EQ(block.first, static_cast<std::int32_t>(next));
+      EXPECT_EQ(block.count, std::min<std::size_t>(8, region.first + region.count - next));
+      EXPECT_FALSE(block.run);
+      next += block.count;
     }
-    next_block += region.blocks();
   }
   EXPECT_EQ(mesh.blocks.size(), next_block);
-  EXPECT_EQ(mesh.corner_force.size(), next_block * 8 * 3 * 8);
 }
 
-TEST(Mesh, GatheringAddsEveryCornerOnceAndNothingOfTheSpareLanes) {
-  Mesh mesh = random_mesh(region_sizes);
-  std::fill(mesh.corner_force.begin(), mesh.corner_force.end(), std::numeric_limits<double>::quiet_NaN());
-  std::vector<Vec3> expected(mesh.nodes());
-  for (const HexRegion& region : mesh.regions)
-    for (std::size_t i = 0; i < region.count; ++i)
-      for (int a = 0; a < 8; ++a)
-        for (int c = 0; c < 3; ++c) {
-          const double force = static_cast<double>(1000 * (region.first + i) + 10 * a + c);  // sums are exact
-          // [block][corner][component][lane], as the header has it
-          mesh.corner_force[(((region.first_block + i / 8) * 8 + a) * 3 + c) * 8 + i % 8] = force;
-          expected[mesh.elements[region.first + i][a]][c] += force;
-        }
-  for (std::size_t node = 0; node < mesh.nodes(); ++node)
-    for (int c = 0; c < 3; ++c) {
-      double total = 0;
-      for (auto k = mesh.gather_begin[node]; k < mesh.gather_begin[node + 1]; ++k)
-        total += mesh.corner_force[mesh.gather[k] + 8 * c];
-      EXPECT_EQ(total, expected[node][c]);
-    }
+TEST(Mesh, BlocksWithinARowAreRuns) {
+  const Mesh mesh = cube_mesh(12);  // rows of a block and a half
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) EXPECT_EQ(mesh.blocks[b].run, b % 3 != 1) << b;
 }
 
-TEST(Mesh, NodesGatherInOrderOfElements) {
-  const Mesh mesh = random_mesh(region_sizes);
-  for (std::size_t node = 0; node < mesh.nodes(); ++node)
-    for (auto k = mesh.gather_begin[node] + 1; k < mesh.gather_begin[node + 1]; ++k) {
-      const auto element_place = [&](std::int32_t slot) {
-        return slot / (8 * 3 * lanes) * lanes + slot % lanes;
-      };
-      EXPECT_LT(element_place(mesh.gather[k - 1]), element_place(mesh.gather[k]));
-    }
+/// Every block is swept once, and slabs that add at the same time share no node.
+void expect_fair(const Mesh& mesh, const Sweep& sweep, std::vector<std::int32_t> blocks) {
+  std::vector<std::int32_t> swept = sweep.blocks;
+  std::sort(swept.begin(), swept.end());
+  EXPECT_EQ(swept, blocks);
+  ASSERT_EQ(sweep.slab_begin.back(), sweep.blocks.size());
+  ASSERT_EQ(sweep.colour_begin.back(), sweep.slabs());
+  for (std::size_t c = 0; c < sweep.colours(); ++c) {
+    std::vector<std::size_t> slab_of(mesh.nodes(), sweep.slabs());
+    for (std::size_t s = sweep.colour_begin[c]; s < sweep.colour_begin[c + 1]; ++s)
+      for (std::size_t i = sweep.slab_begin[s]; i < sweep.slab_begin[s + 1]; ++i) {
+        const HexBlock& block = mesh.blocks[sweep.blocks[i]];
+        for (int l = 0; l < block.count; ++l)
+          for (const std::int32_t node : mesh.elements[block.first + l]) {
+            EXPECT_TRUE(slab_of[node] == sweep.slabs() || slab_of[node] == s);
+            slab_of[node] = s;
+          }
+      }
+  }
+}
+
+TEST(Mesh, SlabsOfOneColourShareNoNode) {
+  std::vector<std::int32_t> all;
+  const auto number = [&all](const Mesh& mesh) {
+    all.resize(mesh.blocks.size());
+    for (std::size_t b = 0; b < all.size(); ++b) all[b] = static_cast<std::int32_t>(b);
+  };
+  for (const Mesh& mesh : {random_mesh({300, 700, 1}, 2000), cube_mesh(12), cube_mesh(24)}) {
+    number(mesh);
+    expect_fair(mesh, mesh.sweep, all);
+    std::vector<std::int32_t> some;
+    for (const std::int32_t b : all)
+      if (b % 7 < 3) some.push_back(b);
+    expect_fair(mesh, make_sweep(mesh, some), some);
+  }
+}
+
+TEST(Mesh, ABlockOfManyLayersHasTwoColours) {
+  EXPECT_GT(random_mesh({700}, 2000).sweep.colours(), 10u);
+  const Mesh mesh = cube_mesh(40);
+  EXPECT_EQ(mesh.sweep.colours(), 2u);
+  EXPECT_EQ(mesh.sweep.slabs(), 32u);
 }
 
 TEST(Mesh, StateIsZeroAndPositionsAreKeptByComponent) {
@@ -98,7 +132,8 @@ TEST(Mesh, MayBeEmpty) {
   const Mesh mesh = random_mesh({}, 0);
   EXPECT_EQ(mesh.nodes(), 0u);
   EXPECT_TRUE(mesh.blocks.empty());
-  EXPECT_TRUE(mesh.gather.empty());
+  EXPECT_EQ(mesh.sweep.slabs(), 0u);
+  EXPECT_EQ(mesh.sweep.colours(), 0u);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "core/parallel.hpp"
 #include "de/bonds.hpp"
 #include "fe/elements.hpp"
-#include "solver/nodes.hpp"
 #include "solver/places.hpp"
 #include "verification/bodies.hpp"
 #include "verification/support.hpp"
@@ -192,7 +191,6 @@ class Columns {
     fe::internal_forces(model.mesh);
     for (Lattice& lattice : model.lattices)
       de::bond_forces_and_kick(lattice, {.keep = 0, .per_mass = 1, .per_inertia = 1, .gravity = {}});
-    gather_internal_forces(model.mesh);
     sim_.reactions.add(model);
     places_.take(model, f);
   }
