@@ -64,9 +64,8 @@ void for_each(std::size_t n, F f, std::size_t grain = 1) {
 
 /// Σ f(i) over [0, n): blocks of fixed size are added up in index order, whatever the number of threads.
 /// T needs a default constructor that makes zero, and +=.
-template <class T, class F>
+template <class T, std::size_t block = 512, class F>
 T sum(std::size_t n, F f) {
-  constexpr std::size_t block = 512;
   const std::size_t blocks = (n + block - 1) / block;
   std::vector<T> part(blocks, T{});
   T* const parts = part.data();

@@ -36,21 +36,27 @@ namespace geist::fe {
 struct AssumedStrain {
   static constexpr std::string_view name = "assumed-strain";
   static constexpr bool uses_velocity = false;
+  static constexpr bool resists_along_q = false;
   double lambda, mu, plane;  ///< plane = E/(1 − ν²) = 4 μ (λ+μ)/(λ+2μ)
 
   explicit AssumedStrain(const Parameters& p)
       : lambda(p.lambda), mu(p.mu), plane(4 * p.mu * (p.lambda + p.mu) / (p.lambda + 2 * p.mu)) {}
 
   template <class T>
-  GEIST_INLINE T forces(const Corners<T>& X, const Corners<T>& u, const Corners<T>&, Corners<T>& f) const {
-    const UniformStrain<T> e(X);
-    const Modes<T> w = to_modes(u);
-    T L[3][3], sigma[3][3], q[4][3], Q[4][3];
-    mean_of_gradient(e.m, w, L);
-    hooke(lambda, mu, L, sigma);
-    e.hourglass(w, L, q);
-    resist(e, q, Q);
-    e.forces(sigma, Q, f);
+  GEIST_INLINE T forces(const Corners<T>& X, const Corners<T>& u, const Corners<T>& v, Corners<T>& f) const {
+    return one_point_forces(*this, X, u, v, f);
+  }
+
+  /// Q_k = ∂(ΣE_n + E_7)/∂q_k.
+  template <class T>
+  GEIST_INLINE T resist(const UniformStrain<T>& e, const T (&q)[4][3], T (&Q)[4][3]) const {
+    const auto* const c = &e.x.at[1];
+    T along[3][3];  // Q_m = Σ_a along[m][a] c_a
+    linear_terms(c, e.m.volume, q, along);
+    for (int m = 0; m < 3; ++m)
+      for (int d = 0; d < 3; ++d)
+        Q[m][d] = fma(along[m][2], c[2][d], fma(along[m][1], c[1][d], along[m][0] * c[0][d]));
+    bilinear_terms(&e.m.g.at[1], e.m.inverse_volume, q[3], Q[3]);
     return constant<T>(0);
   }
 
@@ -67,18 +73,6 @@ struct AssumedStrain {
   }
 
  private:
-  /// Q_k = ∂(ΣE_n + E_7)/∂q_k.
-  template <class T>
-  GEIST_INLINE void resist(const UniformStrain<T>& e, const T (&q)[4][3], T (&Q)[4][3]) const {
-    const auto* const c = &e.x.at[1];
-    T along[3][3];  // Q_m = Σ_a along[m][a] c_a
-    linear_terms(c, e.m.volume, q, along);
-    for (int m = 0; m < 3; ++m)
-      for (int d = 0; d < 3; ++d)
-        Q[m][d] = fma(along[m][2], c[2][d], fma(along[m][1], c[1][d], along[m][0] * c[0][d]));
-    bilinear_terms(&e.m.g.at[1], e.m.inverse_volume, q[3], Q[3]);
-  }
-
   /// Derivatives of Σ E_n with respect to q_m·c_a, from the edges c.
   template <class T>
   GEIST_INLINE void linear_terms(const T (*c)[3], const T& volume, const T (&q)[4][3],

@@ -25,10 +25,21 @@
 // momentum about present positions are kept. tr U 1 − U has the sums of two principal stretches for
 // eigenvalues and is never near singular.
 //
+// One-point elements (uniform_strain.hpp) need no turned corners. In their axes the mean of ∂û/∂x is U − 1,
+// and since γ_k sees no linear field,
+//
+//   q̂_k = γ_k · û = Rᵀ q_k,  q_k = γ_k · u,      m = −V axial(U σ̂) − Σ q̂_k × Q̂_k = −Σ q̂_k × Q̂_k,   σ̂ = σ(U −
+//   1)
+//
+// as U and σ̂ share their axes. The term with s is a skew part of the stress: the forces are those of the
+// stress R (σ̂ + [s]×) and the resistances R Q̂_k on the element as it was. Where Q̂_k is a multiple of q̂_k, as
+// in one_point.hpp with a stiffness, m = 0 exactly and Q_k needs no turning.
+//
 // What resists velocities sees the rate of û, Rᵀ v_a − w × x̂_a with w of (*) for δx = v: nothing in a rigid
 // spin, and f · v is what f̂ dissipates.
 #pragma once
 #include "fe/full.hpp"
+#include "fe/uniform_strain.hpp"
 #include "geometry/polar.hpp"
 
 namespace geist::fe {
@@ -40,18 +51,19 @@ GEIST_INLINE void mean_deformation(const MeanGradient<T>& m, const Modes<T>& u, 
   for (int i = 0; i < 3; ++i) F[i][i] = F[i][i] + 1.0;
 }
 
-/// An element's mean gradients, and rotation and stretch of its mean deformation.
+/// Rotation and stretch of an element's mean deformation.
 template <class T>
 struct TurningAxes {
-  MeanGradient<T> mean;
   T R[3][3], U[3][3];
 
-  GEIST_INLINE TurningAxes(const Corners<T>& X, const Corners<T>& u) : mean(mean_gradient(to_modes(X))) {
+  GEIST_INLINE TurningAxes(const MeanGradient<T>& mean, const Modes<T>& u) {
     T F[3][3];
-    mean_deformation(mean, to_modes(u), F);
+    mean_deformation(mean, u, F);
     rotation_of(F, R);
     turned_in(F, U);
   }
+  GEIST_INLINE TurningAxes(const Corners<T>& X, const Corners<T>& u)
+      : TurningAxes(mean_gradient(to_modes(X)), to_modes(u)) {}
 
   /// out = Rᵀ a.
   GEIST_INLINE void into(const T* a, T* out) const {
@@ -62,6 +74,20 @@ struct TurningAxes {
   GEIST_INLINE void turned_in(const T (&A)[3][3], T (&out)[3][3]) const {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) out[i][j] = fma(R[2][i], A[2][j], fma(R[1][i], A[1][j], R[0][i] * A[0][j]));
+  }
+
+  /// out = R A.
+  GEIST_INLINE void turned_out(const T (&A)[3][3], T (&out)[3][3]) const {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) out[i][j] = fma(R[i][2], A[2][j], fma(R[i][1], A[1][j], R[i][0] * A[0][j]));
+  }
+
+  /// Stress of the stretch, σ(U − 1).
+  GEIST_INLINE void stress(double lambda, double mu, T (&sigma)[3][3]) const {
+    T L[3][3];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) L[i][j] = i == j ? U[i][i] - 1.0 : U[i][j];
+    hooke(lambda, mu, L, sigma);
   }
 
   /// Positions x̂ and displacements û of the corners.
@@ -90,13 +116,20 @@ struct TurningAxes {
     for (int i = 0; i < 3; ++i) w[i] = share * dot(C[i], a);
   }
 
-  /// Rates Rᵀ v − w × x̂ of û.
-  GEIST_INLINE void rates(const Corners<T>& x, const Corners<T>& v, Corners<T>& rate) const {
-    T L[3][3], A[3][3], w[3], arm[3];
-    mean_of_gradient(mean, to_modes(v), L);
+  /// w of (*) from the mean gradient of velocities.
+  GEIST_INLINE void spin(const T (&L)[3][3], T (&w)[3]) const {
+    T A[3][3];
     turned_in(L, A);
     const T axial[3] = {A[2][1] - A[1][2], A[0][2] - A[2][0], A[1][0] - A[0][1]};
     solve(axial, w);
+  }
+
+  /// Rates Rᵀ v − w × x̂ of û.
+  GEIST_INLINE void rates(const MeanGradient<T>& mean, const Corners<T>& x, const Corners<T>& v,
+                          Corners<T>& rate) const {
+    T L[3][3], w[3], arm[3];
+    mean_of_gradient(mean, to_modes(v), L);
+    spin(L, w);
     for (int a = 0; a < 8; ++a) {
       into(v[a], rate[a]);
       cross(w, x[a], arm);
@@ -105,7 +138,7 @@ struct TurningAxes {
   }
 
   /// f̂ → f = R (f̂ − s × B/V).
-  GEIST_INLINE void turn_out(const Corners<T>& x, Corners<T>& f) const {
+  GEIST_INLINE void turn_out(const MeanGradient<T>& mean, const Corners<T>& x, Corners<T>& f) const {
     T m[3], s[3], arm[3];
     cross(x[1], f[1], m);
     for (int a = 2; a < 8; ++a) {  // x̂_0 = 0
@@ -127,6 +160,65 @@ struct TurningAxes {
   }
 };
 
+/// What a one-point law resists in turned axes: its stress σ̂ + [s]× is added to, its Q̂ turned out.
+template <class Law, class T>
+GEIST_INLINE T turning_resistance(const Law& law, const UniformStrain<T>& e, const TurningAxes<T>& axes,
+                                  const T (&q)[4][3], const Corners<T>& v, T (&sigma)[3][3], T (&Q)[4][3]) {
+  T turned[4][3], rate[4][3], resisting[4][3], arm[3];
+  for (int k = 0; k < 4; ++k) axes.into(q[k], turned[k]);
+  T power;
+  if constexpr (Law::uses_velocity) {
+    const Modes<T> modes = to_modes(v);
+    T L[3][3], w[3];
+    mean_of_gradient(e.m, modes, L);
+    axes.spin(L, w);
+    e.hourglass(modes, L, Q);
+    for (int k = 0; k < 4; ++k) {
+      axes.into(Q[k], rate[k]);
+      cross(w, turned[k], arm);
+      for (int i = 0; i < 3; ++i) rate[k][i] = rate[k][i] - arm[i];
+    }
+    power = law.resist(e, rate, resisting);
+  } else {
+    power = law.resist(e, turned, resisting);
+  }
+  T m[3], s[3];
+  cross(resisting[0], turned[0], m);
+  for (int k = 1; k < 4; ++k) {
+    cross(resisting[k], turned[k], arm);
+    for (int i = 0; i < 3; ++i) m[i] = m[i] + arm[i];
+  }
+  for (T& i : m) i = e.m.inverse_volume * i;
+  axes.solve(m, s);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    sigma[k][j] = sigma[k][j] + s[i], sigma[j][k] = sigma[j][k] - s[i];
+  }
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i) Q[k][i] = dot(axes.R[i], resisting[k]);
+  return power;
+}
+
+/// Forces of a one-point law that turns with the element.
+template <class Law, class T>
+GEIST_INLINE T turning_one_point_forces(const Law& law, const Corners<T>& X, const Corners<T>& u,
+                                        const Corners<T>& v, Corners<T>& f) {
+  const UniformStrain<T> e(X);
+  const Modes<T> w = to_modes(u);
+  const TurningAxes<T> axes(e.m, w);
+  T L[3][3], sigma[3][3], P[3][3], q[4][3], Q[4][3], power;
+  mean_of_gradient(e.m, w, L);
+  e.hourglass(w, L, q);
+  axes.stress(law.lambda, law.mu, sigma);
+  if constexpr (Law::resists_along_q)
+    power = law.resist(e, q, Q);
+  else
+    power = turning_resistance(law, e, axes, q, v, sigma, Q);
+  axes.turned_out(sigma, P);
+  e.forces(P, Q, f);
+  return power;
+}
+
 /// The formulation `law`, turning with the element.
 template <class Formulation>
 struct Corotational {
@@ -135,13 +227,10 @@ struct Corotational {
 
   template <class T>
   GEIST_INLINE T forces(const Corners<T>& X, const Corners<T>& u, const Corners<T>& v, Corners<T>& f) const {
-    const TurningAxes<T> axes(X, u);
-    Corners<T> x, w, rate;
-    axes.positions(X, u, x, w);
-    if constexpr (uses_velocity) axes.rates(x, v, rate);
-    const T power = law.forces(X, w, uses_velocity ? rate : w, f);
-    axes.turn_out(x, f);
-    return power;
+    if constexpr (OnePointLaw<Formulation>)
+      return turning_one_point_forces(law, X, u, v, f);
+    else
+      return turned_forces(X, u, v, f);
   }
 
   template <class T>
@@ -150,18 +239,29 @@ struct Corotational {
     TurningAxes<T>(X, u).positions(X, u, x, w);
     return law.energy(X, w);
   }
+
+ private:
+  template <class T>
+  GEIST_INLINE T turned_forces(const Corners<T>& X, const Corners<T>& u, const Corners<T>& v,
+                               Corners<T>& f) const {
+    const MeanGradient<T> mean = mean_gradient(to_modes(X));
+    const TurningAxes<T> axes(mean, to_modes(u));
+    Corners<T> x, w, rate;
+    axes.positions(X, u, x, w);
+    if constexpr (uses_velocity) axes.rates(mean, x, v, rate);
+    const T power = law.forces(X, w, uses_velocity ? rate : w, f);
+    axes.turn_out(mean, x, f);
+    return power;
+  }
 };
 
 /// Stress in global axes of a mean stretch U and rotation R: R σ(U − 1) Rᵀ. This is the stress on areas of
 /// the undeformed element, turned; Cauchy's differs from it by the order of the strain.
 template <class T>
 GEIST_INLINE void turned_stress(double lambda, double mu, const TurningAxes<T>& axes, T (&sigma)[3][3]) {
-  T L[3][3], S[3][3], RS[3][3];
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) L[i][j] = i == j ? axes.U[i][i] - 1.0 : axes.U[i][j];
-  hooke(lambda, mu, L, S);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) RS[i][j] = dot(axes.R[i], S[j]);
+  T S[3][3], RS[3][3];
+  axes.stress(lambda, mu, S);
+  axes.turned_out(S, RS);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) sigma[i][j] = dot(RS[i], axes.R[j]);
 }

@@ -57,14 +57,18 @@ double add_forces(Mesh& mesh, std::span<const std::int32_t> sweep, Formulation f
   const NodeField X(mesh, mesh.X), u(mesh, mesh.u), v(mesh, mesh.v);
   const NodeForces total(mesh, mesh.f);
   const Blocks blocks(mesh);
+  Corners<Pack> room[3];
   double power = 0;
   for (const std::int32_t b : sweep) {
     const HexBlock& block = blocks.block[b];
+    const CornerValues x = X.at(block, room[0]), w = u.at(block, room[1]);
     Corners<Pack> f;
     const Pack p = blocks.visit(static_cast<std::size_t>(b), formulation, [&](const auto& own) {
-      const Corners<Pack> w = u.at(block);
-      if constexpr (Formulation::uses_velocity) return own.forces(X.at(block), w, v.at(block), f);
-      return own.forces(X.at(block), w, w, f);
+      const Corners<Pack> d = w.all();
+      if constexpr (Formulation::uses_velocity)
+        return own.forces(x.all(), d, v.at(block, room[2]).all(), f);
+      else
+        return own.forces(x.all(), d, d, f);
     });
     total.add(block, factor, f);
     if constexpr (Formulation::uses_velocity) power += sum_real_lanes(p, block.count);
@@ -94,9 +98,10 @@ Energies region_energies(const Mesh& mesh, const HexRegion& region, Formulation 
   const Blocks blocks(mesh);
   return sum<Energies>(region.blocks(), [=, &region](std::size_t i) {
     const std::size_t b = region.first_block + i;
-    const Stored<Pack> e = blocks.visit(b, formulation, [&](const auto& own) {
-      return own.energy(X.at(blocks.block[b]), u.at(blocks.block[b]));
-    });
+    Corners<Pack> room[2];
+    const CornerValues x = X.at(blocks.block[b], room[0]), w = u.at(blocks.block[b], room[1]);
+    const Stored<Pack> e =
+        blocks.visit(b, formulation, [&](const auto& own) { return own.energy(x.all(), w.all()); });
     const int real = blocks.block[b].count;
     return Energies{sum_real_lanes(e.strain, real), sum_real_lanes(e.hourglass, real)};
   });
@@ -134,7 +139,8 @@ std::array<double, 8> masses(const Mesh& mesh, std::size_t e, double rho) {
 }
 
 BlockCut whole_block(const Mesh& mesh, const HexBlock& block) {
-  const MeanGradient<Pack> m = mean_gradient(to_modes(NodeField(mesh, mesh.X).at(block)));
+  Corners<Pack> room;
+  const MeanGradient<Pack> m = mean_gradient(to_modes(NodeField(mesh, mesh.X).at(block, room).all()));
   BlockCut whole;
   whole.volume = m.volume;
   Modes<Pack> g = m.g;

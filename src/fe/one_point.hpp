@@ -37,23 +37,22 @@ GEIST_INLINE T sum_of_squares(const T (&q)[4][3]) {
 struct OnePoint {
   static constexpr std::string_view name = "one-point";
   static constexpr bool uses_velocity = false;
-  double lambda, mu, scale;  ///< scale = ½ κ (λ+2μ); S/8 = scale Σ g·g/V
+  static constexpr bool resists_along_q = true;  ///< Q_k is a multiple of q_k
+  double lambda, mu, scale;                      ///< scale = ½ κ (λ+2μ); S/8 = scale Σ g·g/V
 
   explicit OnePoint(const Parameters& p)
       : lambda(p.lambda), mu(p.mu), scale(0.5 * p.hourglass * (p.lambda + 2 * p.mu)) {}
 
   template <class T>
-  GEIST_INLINE T forces(const Corners<T>& X, const Corners<T>& u, const Corners<T>&, Corners<T>& f) const {
-    const UniformStrain<T> e(X);
-    const Modes<T> w = to_modes(u);
-    T L[3][3], sigma[3][3], Q[4][3];
-    mean_of_gradient(e.m, w, L);
-    hooke(lambda, mu, L, sigma);
-    e.hourglass(w, L, Q);
+  GEIST_INLINE T forces(const Corners<T>& X, const Corners<T>& u, const Corners<T>& v, Corners<T>& f) const {
+    return one_point_forces(*this, X, u, v, f);
+  }
+
+  template <class T>
+  GEIST_INLINE T resist(const UniformStrain<T>& e, const T (&q)[4][3], T (&Q)[4][3]) const {
     const T stiffness = scale * e.square() * e.m.inverse_volume;
-    for (auto& k : Q)
-      for (T& i : k) i = stiffness * i;
-    e.forces(sigma, Q, f);
+    for (int k = 0; k < 4; ++k)
+      for (int i = 0; i < 3; ++i) Q[k][i] = stiffness * q[k][i];
     return constant<T>(0);
   }
 
@@ -72,6 +71,7 @@ struct OnePoint {
 struct OnePointViscous {
   static constexpr std::string_view name = "one-point-viscous";
   static constexpr bool uses_velocity = true;
+  static constexpr bool resists_along_q = false;
   double lambda, mu, scale;  ///< scale = ¼ κ ρ c √(16/3); S/8 = scale √(Σ g·g)
 
   explicit OnePointViscous(const Parameters& p)
@@ -79,19 +79,15 @@ struct OnePointViscous {
 
   template <class T>
   GEIST_INLINE T forces(const Corners<T>& X, const Corners<T>& u, const Corners<T>& v, Corners<T>& f) const {
-    const UniformStrain<T> e(X);
-    const Modes<T> rate = to_modes(v);
-    T L[3][3], sigma[3][3], Q[4][3];
-    mean_of_gradient(e.m, rate, L);
-    e.hourglass(rate, L, Q);
+    return one_point_forces(*this, X, u, v, f);
+  }
+
+  template <class T>
+  GEIST_INLINE T resist(const UniformStrain<T>& e, const T (&rate)[4][3], T (&Q)[4][3]) const {
     const T viscosity = scale * root(e.square());
-    const T power = viscosity * sum_of_squares(Q);
-    for (auto& k : Q)
-      for (T& i : k) i = viscosity * i;
-    mean_of_gradient(e.m, to_modes(u), L);
-    hooke(lambda, mu, L, sigma);
-    e.forces(sigma, Q, f);
-    return power;
+    for (int k = 0; k < 4; ++k)
+      for (int i = 0; i < 3; ++i) Q[k][i] = viscosity * rate[k][i];
+    return viscosity * sum_of_squares(rate);
   }
 
   template <class T>

@@ -53,4 +53,32 @@ struct UniformStrain {
   }
 };
 
+/// A formulation of this kind: law.resist(e, q, Q) sets the resistances Q to q, or to the rates of q if it
+/// uses velocities, and returns the power dissipated.
+template <class Law>
+concept OnePointLaw = requires(const Law& law, const UniformStrain<double>& e, double (&q)[4][3]) {
+  law.resist(e, q, q);
+};
+
+/// Formulation::forces() of such a law.
+template <class Law, class T>
+GEIST_INLINE T one_point_forces(const Law& law, const Corners<T>& X, const Corners<T>& u, const Corners<T>& v,
+                                Corners<T>& f) {
+  const UniformStrain<T> e(X);
+  const Modes<T> w = to_modes(u);
+  T L[3][3], sigma[3][3], q[4][3], Q[4][3];
+  mean_of_gradient(e.m, w, L);
+  hooke(law.lambda, law.mu, L, sigma);
+  if constexpr (Law::uses_velocity) {
+    const Modes<T> rate = to_modes(v);
+    mean_of_gradient(e.m, rate, L);
+    e.hourglass(rate, L, q);
+  } else {
+    e.hourglass(w, L, q);
+  }
+  const T power = law.resist(e, q, Q);
+  e.forces(sigma, Q, f);
+  return power;
+}
+
 }  // namespace geist::fe

@@ -7,14 +7,18 @@
 namespace geist {
 namespace {
 
-/// Whether consecutive elements have consecutive nodes at every corner.
-bool is_run(const Mesh& mesh, const HexBlock& block) {
-  if (block.count < lanes) return false;
+/// HexBlock::in_row.
+int lanes_in_row(const Mesh& mesh, const HexBlock& block) {
+  if (block.count < lanes) return 0;
   const auto* const element = &mesh.elements[static_cast<std::size_t>(block.first)];
+  const auto& [a, b, c, d, e, f, g, h] = *element;
+  if (b != a + 1 || c != d + 1 || f != e + 1 || g != h + 1) return 0;
+  int in_row = 1;
+  while (in_row < lanes && element[in_row][0] == a + in_row) ++in_row;
   for (int l = 1; l < lanes; ++l)
-    for (int a = 0; a < 8; ++a)
-      if (element[l][a] != element[0][a] + l) return false;
-  return true;
+    for (int k = 0; k < 8; ++k)
+      if (element[l][k] != element[0][k] + l + (l < in_row ? 0 : 1)) return 0;
+  return in_row;
 }
 
 void make_blocks(Mesh& mesh) {
@@ -23,8 +27,8 @@ void make_blocks(Mesh& mesh) {
     region.first_block = mesh.blocks.size();
     for (std::size_t i = 0; i < region.count; i += lanes) {
       HexBlock block{static_cast<std::int32_t>(region.first + i),
-                     static_cast<std::int16_t>(std::min<std::size_t>(lanes, region.count - i)), false};
-      block.run = is_run(mesh, block);
+                     static_cast<std::int8_t>(std::min<std::size_t>(lanes, region.count - i)), 0};
+      block.in_row = static_cast<std::int8_t>(lanes_in_row(mesh, block));
       mesh.blocks.push_back(block);
     }
   }

@@ -27,10 +27,14 @@
 namespace geist {
 
 /// Consecutive hexahedra side by side, those in the lanes of a Pack.
+///
+/// Eight neighbours along ξ in a structured body have consecutive nodes: corner a of lane l is node
+/// elements[first][a] + l, and corners 1, 2, 6, 5 are the nodes after corners 0, 3, 7, 4. Where they go
+/// around the end of a row, one number is left out: lanes `in_row` and up have the node after that one.
 struct HexBlock {
   std::int32_t first;  ///< element
-  std::int16_t count;  ///< 1 … 8
-  bool run;            ///< eight whose corners a are nodes one after the other, elements[first][a] + 0 … 7
+  std::int8_t count;   ///< 1 … 8
+  std::int8_t in_row;  ///< 8: a whole row; 1 … 7: around its end; 0: any nodes, or fewer than eight elements
 };
 
 /// An order in which blocks may add to the nodes: in slabs, one after the other within a slab, slabs of one

@@ -2,28 +2,66 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <span>
 
+#include "core/pack.hpp"
 #include "core/parallel.hpp"
 
 namespace geist {
 
+namespace {
+
+/// Eight nodes; those past the last one are held in all components.
+struct EightNodes {
+  std::size_t first, count;
+
+  GEIST_INLINE Pack read(const double* p, double otherwise) const {
+    if (count == lanes) return load(p + first);
+    Pack a = broadcast(otherwise);
+    for (std::size_t l = 0; l < count; ++l) a[l] = p[first + l];
+    return a;
+  }
+  GEIST_INLINE void write(double* p, Pack a) const {
+    if (count == lanes) return store(p + first, a);
+    for (std::size_t l = 0; l < count; ++l) p[first + l] = a[l];
+  }
+  GEIST_INLINE PackInt bits(const std::uint8_t* p) const {
+    using Bytes = std::uint8_t __attribute__((vector_size(lanes)));
+    Bytes a = Bytes{} + std::uint8_t{0b111};
+    if (count == lanes)
+      std::memcpy(&a, p + first, sizeof a);
+    else
+      for (std::size_t l = 0; l < count; ++l) a[l] = p[first + l];
+    return __builtin_convertvector(a, PackInt);
+  }
+};
+
+}  // namespace
+
 de::KickSums kick_nodes(Mesh& mesh, const de::Kick& kick) {
   double* const v[3] = {mesh.v[0], mesh.v[1], mesh.v[2]};
   const double* const f[3] = {mesh.f[0], mesh.f[1], mesh.f[2]};
-  return sum<de::KickSums>(
-      mesh.nodes(), [=, mass = mesh.mass.data(), held = mesh.held.data()](std::size_t i) {
-        de::KickSums sums;
-        for (int c = 0; c < 3; ++c) {
-          if (held[i] >> c & 1) continue;
-          const double before = v[c][i];
-          const double after = fma(kick.per_mass / mass[i], f[c][i], fma(kick.keep, before, kick.gravity[c]));
-          v[c][i] = after;
-          sums.across += mass[i] * before * after;
-          sums.after += mass[i] * after * after;
-        }
-        return sums;
-      });
+  const auto kick_eight = [=, n = mesh.nodes(), mass = mesh.mass.data(),
+                           held = mesh.held.data()](std::size_t b) {
+    const EightNodes nodes{b * lanes, std::min<std::size_t>(lanes, n - b * lanes)};
+    const Pack m = nodes.read(mass, 1), per_mass = kick.per_mass / m, none = broadcast(0);
+    const PackInt bits = nodes.bits(held);
+    Pack across = none, after_twice = none;
+    for (int c = 0; c < 3; ++c) {
+      const PackInt is_held = (bits >> c & 1) != 0;
+      const Pack before = nodes.read(v[c], 0);
+      const Pack free =
+          fma(per_mass, nodes.read(f[c], 0), fma(kick.keep, before, broadcast(kick.gravity[c])));
+      const Pack after = is_held ? before : free, p = (is_held ? none : m) * after;
+      nodes.write(v[c], after);
+      across = fma(p, before, across), after_twice = fma(p, after, after_twice);
+    }
+    return de::KickSums{sum_lanes(across), sum_lanes(after_twice), 0, 0};
+  };
+  constexpr std::size_t block = 64;  // packs
+  return sum<de::KickSums, block>((mesh.nodes() + lanes - 1) / lanes, kick_eight);
 }
 
 template <int N>

@@ -62,16 +62,26 @@ TEST(Mesh, RegionsBeginNewBlocks) {
       const HexBlock& block = mesh.blocks[next_block];
       EXPECT_EQ(block.first, static_cast<std::int32_t>(next));
       EXPECT_EQ(block.count, std::min<std::size_t>(8, region.first + region.count - next));
-      EXPECT_FALSE(block.run);
+      EXPECT_EQ(block.in_row, 0);
       next += block.count;
     }
   }
   EXPECT_EQ(mesh.blocks.size(), next_block);
 }
 
-TEST(Mesh, BlocksWithinARowAreRuns) {
-  const Mesh mesh = cube_mesh(12);  // rows of a block and a half
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) EXPECT_EQ(mesh.blocks[b].run, b % 3 != 1) << b;
+TEST(Mesh, BlocksAreRowsOrGoAroundTheirEnds) {
+  const Mesh mesh = cube_mesh(12);  // rows of a block and a half; a layer is eighteen blocks
+  const int expected[3] = {8, 4, 8};
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    EXPECT_EQ(mesh.blocks[b].in_row, expected[b % 3]) << b;
+  Mesh other = cube_mesh(24);  // a layer ends with a whole block
+  std::swap(other.elements[30][4], other.elements[30][5]);
+  finish(other);
+  for (std::size_t b = 0; b < other.blocks.size(); ++b) EXPECT_EQ(other.blocks[b].in_row, b == 3 ? 0 : 8) << b;
+  const Mesh odd = cube_mesh(9);  // in the eleventh block a layer ends, whose last row of nodes lies between
+  EXPECT_EQ(odd.blocks[1].in_row, 1);
+  EXPECT_EQ(odd.blocks[2].in_row, 2);
+  EXPECT_EQ(odd.blocks[10].in_row, 0);
 }
 
 /// Every block is swept once, and slabs that add at the same time share no node.
