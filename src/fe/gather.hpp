@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "core/pack.hpp"
 #include "fe/modes.hpp"
@@ -15,11 +16,16 @@ namespace geist::fe {
 inline constexpr int edges_along_row[4][2] = {{0, 1}, {3, 2}, {4, 5}, {7, 6}};
 
 /// {0, a[0], …, a[6]}.
-GEIST_INLINE Pack moved_up(Pack a) { return __builtin_shufflevector(a, Pack{}, 8, 0, 1, 2, 3, 4, 5, 6); }
+template <int... l>
+GEIST_INLINE Pack moved_up(Pack a, std::integer_sequence<int, l...>) {
+  return __builtin_shufflevector(a, Pack{}, (l == 0 ? lanes : l - 1)...);
+}
+GEIST_INLINE Pack moved_up(Pack a) { return moved_up(a, std::make_integer_sequence<int, lanes>()); }
 
 /// All ones in lanes l < n.
 GEIST_INLINE PackInt lanes_below(int n) {
-  const PackInt lane{0, 1, 2, 3, 4, 5, 6, 7};
+  PackInt lane;
+  for (int l = 0; l < lanes; ++l) lane[l] = l;
   return lane < n;
 }
 
@@ -56,7 +62,8 @@ struct NodeField {
   }
 
  private:
-  static constexpr std::int32_t in_room[8] = {0, 24, 48, 72, 96, 120, 144, 168};
+  static constexpr std::int32_t in_room[8] = {0,          3 * lanes,  6 * lanes,  9 * lanes,
+                                              12 * lanes, 15 * lanes, 18 * lanes, 21 * lanes};
 
   GEIST_INLINE void bring_around_end(const HexBlock& block, Corners<Pack>& x) const {
     const PackInt before = lanes_below(block.in_row);
@@ -73,11 +80,8 @@ struct NodeField {
     for (int l = 0; l < lanes; ++l)
       node[l] = elements[block.first + std::min<int>(l, block.count - 1)].data();
     for (int a = 0; a < 8; ++a)
-      for (int i = 0; i < 3; ++i) {
-        const double* const p = component[i];
-        x[a][i] = Pack{p[node[0][a]], p[node[1][a]], p[node[2][a]], p[node[3][a]],
-                       p[node[4][a]], p[node[5][a]], p[node[6][a]], p[node[7][a]]};
-      }
+      for (int i = 0; i < 3; ++i)
+        for (int l = 0; l < lanes; ++l) x[a][i][l] = component[i][node[l][a]];
   }
 };
 
@@ -106,7 +110,7 @@ struct NodeForces {
       for (int i = 0; i < 3; ++i) {
         double* const p = component[i] + elements[block.first][a];
         add(p, factor, f[a][i] + moved_up(f[b][i]));
-        add(p + 8, factor, f[b][i][7]);
+        add(p + lanes, factor, f[b][i][lanes - 1]);
       }
   }
 
@@ -117,11 +121,11 @@ struct NodeForces {
     for (const auto [a, b] : edges_along_row)
       for (int i = 0; i < 3; ++i) {
         double* const p = component[i] + elements[block.first][a];
-        const Pack s = before ? f[a][i] : none, t = before ? none : f[a][i];
-        const Pack v = before ? f[b][i] : none, w = before ? none : f[b][i];
-        add(p, factor, (s + moved_up(v)) + moved_up(t + moved_up(w)));
-        add(p + 8, factor, (v[7] + t[7]) + w[6]);
-        add(p + 9, factor, w[7]);
+        const Pack last = before ? none : f[b][i], after = (before ? none : f[a][i]) + moved_up(last);
+        const Pack in_row = (before ? f[a][i] : none) + moved_up(before ? f[b][i] : none);
+        add(p, factor, in_row + moved_up(after));
+        add(p + lanes, factor, after[lanes - 1]);
+        add(p + lanes + 1, factor, last[lanes - 1]);
       }
   }
 

@@ -72,12 +72,12 @@ TEST(Mesh, RegionsBeginNewBlocks) {
 TEST(Mesh, BlocksAreRowsOrGoAroundTheirEnds) {
   const Mesh mesh = cube_mesh(12);  // rows of a block and a half; a layer is eighteen blocks
   const int expected[3] = {8, 4, 8};
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-    EXPECT_EQ(mesh.blocks[b].in_row, expected[b % 3]) << b;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) EXPECT_EQ(mesh.blocks[b].in_row, expected[b % 3]) << b;
   Mesh other = cube_mesh(24);  // a layer ends with a whole block
   std::swap(other.elements[30][4], other.elements[30][5]);
   finish(other);
-  for (std::size_t b = 0; b < other.blocks.size(); ++b) EXPECT_EQ(other.blocks[b].in_row, b == 3 ? 0 : 8) << b;
+  for (std::size_t b = 0; b < other.blocks.size(); ++b)
+    EXPECT_EQ(other.blocks[b].in_row, b == 3 ? 0 : 8) << b;
   const Mesh odd = cube_mesh(9);  // in the eleventh block a layer ends, whose last row of nodes lies between
   EXPECT_EQ(odd.blocks[1].in_row, 1);
   EXPECT_EQ(odd.blocks[2].in_row, 2);
