@@ -25,15 +25,14 @@
 // momentum about present positions are kept. tr U 1 − U has the sums of two principal stretches for
 // eigenvalues and is never near singular.
 //
-// One-point elements (uniform_strain.hpp) need no turned corners. In their axes the mean of ∂û/∂x is U − 1,
-// and since γ_k sees no linear field,
+// One-point elements (uniform_strain.hpp) need no turned corners. In their axes the mean of ∂û/∂x is U − 1;
+// γ_k sees no linear field; and σ̂ has no moment, as it has the axes of U:
 //
-//   q̂_k = γ_k · û = Rᵀ q_k,  q_k = γ_k · u,      m = −V axial(U σ̂) − Σ q̂_k × Q̂_k = −Σ q̂_k × Q̂_k,   σ̂ = σ(U −
-//   1)
+//   σ̂ = σ(U − 1),   q̂_k = γ_k · û = Rᵀ q_k,   m = −Σ q̂_k × Q̂_k          q_k = γ_k · u
 //
-// as U and σ̂ share their axes. The term with s is a skew part of the stress: the forces are those of the
-// stress R (σ̂ + [s]×) and the resistances R Q̂_k on the element as it was. Where Q̂_k is a multiple of q̂_k, as
-// in one_point.hpp with a stiffness, m = 0 exactly and Q_k needs no turning.
+// The term with s is what a skew stress would give: the forces are those of the stress R (σ̂ + [s]×) and the
+// resistances R Q̂_k on the element as it was. Where Q̂_k is a multiple of q̂_k, as in one_point.hpp with a
+// stiffness, m = 0 exactly, and the stress is all that turns.
 //
 // What resists velocities sees the rate of û, Rᵀ v_a − w × x̂_a with w of (*) for δx = v: nothing in a rigid
 // spin, and f · v is what f̂ dissipates.
@@ -160,32 +159,30 @@ struct TurningAxes {
   }
 };
 
-/// What a one-point law resists in turned axes: its stress σ̂ + [s]× is added to, its Q̂ turned out.
-template <class Law, class T>
-GEIST_INLINE T turning_resistance(const Law& law, const UniformStrain<T>& e, const TurningAxes<T>& axes,
-                                  const T (&q)[4][3], const Corners<T>& v, T (&sigma)[3][3], T (&Q)[4][3]) {
-  T turned[4][3], rate[4][3], resisting[4][3], arm[3];
-  for (int k = 0; k < 4; ++k) axes.into(q[k], turned[k]);
-  T power;
-  if constexpr (Law::uses_velocity) {
-    const Modes<T> modes = to_modes(v);
-    T L[3][3], w[3];
-    mean_of_gradient(e.m, modes, L);
-    axes.spin(L, w);
-    e.hourglass(modes, L, Q);
-    for (int k = 0; k < 4; ++k) {
-      axes.into(Q[k], rate[k]);
-      cross(w, turned[k], arm);
-      for (int i = 0; i < 3; ++i) rate[k][i] = rate[k][i] - arm[i];
-    }
-    power = law.resist(e, rate, resisting);
-  } else {
-    power = law.resist(e, turned, resisting);
+/// Rates Rᵀ γ_k · v − w × q̂_k of the q̂_k.
+template <class T>
+GEIST_INLINE void turned_rates(const UniformStrain<T>& e, const TurningAxes<T>& axes, const T (&q)[4][3],
+                               const Corners<T>& v, T (&rate)[4][3]) {
+  const Modes<T> modes = to_modes(v);
+  T L[3][3], w[3], own[4][3], arm[3];
+  mean_of_gradient(e.m, modes, L);
+  axes.spin(L, w);
+  e.hourglass(modes, L, own);
+  for (int k = 0; k < 4; ++k) {
+    axes.into(own[k], rate[k]);
+    cross(w, q[k], arm);
+    for (int i = 0; i < 3; ++i) rate[k][i] = rate[k][i] - arm[i];
   }
-  T m[3], s[3];
-  cross(resisting[0], turned[0], m);
+}
+
+/// σ̂ ← σ̂ + [s]×, which takes out the moment m = −Σ q̂_k × Q̂_k.
+template <class T>
+GEIST_INLINE void balance_moment(const UniformStrain<T>& e, const TurningAxes<T>& axes, const T (&q)[4][3],
+                                 const T (&Q)[4][3], T (&sigma)[3][3]) {
+  T m[3], s[3], arm[3];
+  cross(Q[0], q[0], m);
   for (int k = 1; k < 4; ++k) {
-    cross(resisting[k], turned[k], arm);
+    cross(Q[k], q[k], arm);
     for (int i = 0; i < 3; ++i) m[i] = m[i] + arm[i];
   }
   for (T& i : m) i = e.m.inverse_volume * i;
@@ -194,6 +191,17 @@ GEIST_INLINE T turning_resistance(const Law& law, const UniformStrain<T>& e, con
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     sigma[k][j] = sigma[k][j] + s[i], sigma[j][k] = sigma[j][k] - s[i];
   }
+}
+
+/// Q_k = R Q̂_k of the q̂_k = Rᵀ q_k, and what they add to σ̂. Returns the power dissipated.
+template <class Law, class T>
+GEIST_INLINE T turned_resistance(const Law& law, const UniformStrain<T>& e, const TurningAxes<T>& axes,
+                                 const T (&q)[4][3], const Corners<T>& v, T (&sigma)[3][3], T (&Q)[4][3]) {
+  T turned[4][3], rate[4][3], resisting[4][3];
+  for (int k = 0; k < 4; ++k) axes.into(q[k], turned[k]);
+  if constexpr (Law::uses_velocity) turned_rates(e, axes, turned, v, rate);
+  const T power = law.resist(e, Law::uses_velocity ? rate : turned, resisting);
+  balance_moment(e, axes, turned, resisting, sigma);
   for (int k = 0; k < 4; ++k)
     for (int i = 0; i < 3; ++i) Q[k][i] = dot(axes.R[i], resisting[k]);
   return power;
@@ -213,7 +221,7 @@ GEIST_INLINE T turning_one_point_forces(const Law& law, const Corners<T>& X, con
   if constexpr (Law::resists_along_q)
     power = law.resist(e, q, Q);
   else
-    power = turning_resistance(law, e, axes, q, v, sigma, Q);
+    power = turned_resistance(law, e, axes, q, v, sigma, Q);
   axes.turned_out(sigma, P);
   e.forces(P, Q, f);
   return power;
