@@ -117,19 +117,21 @@ void append(Mesh& mesh, HexRegion region, const Hexahedra& body, const std::vect
   const double slack = 1e-7 * body.spacing;
   const std::vector<Fate> fate = fates(body, minus, slack);
   const NodeFinder earlier(mesh, body.points, slack);
-  std::vector<std::int32_t> own(body.points.size(), -1);  // nodes of the mesh, by the body's own
-  const auto node_at = [&](std::int32_t i) {
-    std::int32_t& node = own[i];
-    if (node < 0) node = earlier.find(body.points[i]);
-    if (node < 0) node = static_cast<std::int32_t>(mesh.nodes()), mesh.points.push_back(body.points[i]);
-    return node;
-  };
+  constexpr std::int32_t unused = -2;
+  std::vector<std::int32_t> own(body.points.size(), unused);  // nodes of the mesh, by the body's own
   region.first = mesh.elements.size();
   for (std::size_t e = 0; e < body.elements.size(); ++e) {
     if (fate[e] == Fate::cut_out) continue;
-    auto& element = mesh.elements.emplace_back(body.elements[e]);
-    for (std::int32_t& node : element) node = node_at(node);
+    mesh.elements.push_back(body.elements[e]);
+    for (const std::int32_t i : body.elements[e]) own[i] = -1;
   }
+  for (std::size_t i = 0; i < own.size(); ++i) {  // in the body's order, so that rows stay rows
+    if (own[i] == unused) continue;
+    own[i] = earlier.find(body.points[i]);
+    if (own[i] < 0) own[i] = static_cast<std::int32_t>(mesh.nodes()), mesh.points.push_back(body.points[i]);
+  }
+  for (std::size_t e = region.first; e < mesh.elements.size(); ++e)
+    for (std::int32_t& node : mesh.elements[e]) node = own[node];
   region.count = mesh.elements.size() - region.first;
   if (region.count == 0) throw std::invalid_argument("no element is left");
   mesh.regions.push_back(std::move(region));
