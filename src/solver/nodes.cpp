@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 #include "core/pack.hpp"
@@ -13,28 +12,17 @@ namespace geist {
 
 namespace {
 
-/// Eight nodes; those past the last one are held in all components.
-struct EightNodes {
-  std::size_t first, count;
+/// The kick of nodes i …, as many as T has lanes, in component c, and its sums.
+template <class T>
+struct NodeKick {
+  const de::Kick& kick;
+  T mass, per_mass = kick.per_mass / mass, across = constant<T>(0), after = constant<T>(0);
 
-  GEIST_INLINE Pack read(const double* p, double otherwise) const {
-    if (count == lanes) return load(p + first);
-    Pack a = broadcast(otherwise);
-    for (std::size_t l = 0; l < count; ++l) a[l] = p[first + l];
-    return a;
-  }
-  GEIST_INLINE void write(double* p, Pack a) const {
-    if (count == lanes) return store(p + first, a);
-    for (std::size_t l = 0; l < count; ++l) p[first + l] = a[l];
-  }
-  GEIST_INLINE PackInt bits(const std::uint8_t* p) const {
-    using Bytes = std::uint8_t __attribute__((vector_size(lanes)));
-    Bytes a = Bytes{} + std::uint8_t{0b111};
-    if (count == lanes)
-      std::memcpy(&a, p + first, sizeof a);
-    else
-      for (std::size_t l = 0; l < count; ++l) a[l] = p[first + l];
-    return __builtin_convertvector(a, PackInt);
+  GEIST_INLINE T operator()(int c, const T& f, const T& before) {
+    const T v = fma(per_mass, f, fma(kick.keep, before, constant<T>(kick.gravity[c])));
+    const T momentum = mass * v;
+    across = fma(momentum, before, across), after = fma(momentum, v, after);
+    return v;
   }
 };
 
@@ -43,25 +31,25 @@ struct EightNodes {
 de::KickSums kick_nodes(Mesh& mesh, const de::Kick& kick) {
   double* const v[3] = {mesh.v[0], mesh.v[1], mesh.v[2]};
   const double* const f[3] = {mesh.f[0], mesh.f[1], mesh.f[2]};
-  const auto kick_eight = [=, n = mesh.nodes(), mass = mesh.mass.data(),
-                           held = mesh.held.data()](std::size_t b) {
-    const EightNodes nodes{b * lanes, std::min<std::size_t>(lanes, n - b * lanes)};
-    const Pack m = nodes.read(mass, 1), per_mass = kick.per_mass / m, none = broadcast(0);
-    const PackInt bits = nodes.bits(held);
-    Pack across = none, after_twice = none;
-    for (int c = 0; c < 3; ++c) {
-      const PackInt is_held = (bits >> c & 1) != 0;
-      const Pack before = nodes.read(v[c], 0);
-      const Pack free =
-          fma(per_mass, nodes.read(f[c], 0), fma(kick.keep, before, broadcast(kick.gravity[c])));
-      const Pack after = is_held ? before : free, p = (is_held ? none : m) * after;
-      nodes.write(v[c], after);
-      across = fma(p, before, across), after_twice = fma(p, after, after_twice);
+  const auto kick_pack = [=, n = mesh.nodes(), mass = mesh.mass.data(),
+                          held = mesh.held.data()](std::size_t b) {
+    const std::size_t first = b * lanes, end = std::min(n, first + lanes);
+    if (first + lanes <= n && std::all_of(held + first, held + end, [](std::uint8_t h) { return h == 0; })) {
+      NodeKick<Pack> eight{kick, load(mass + first)};
+      for (int c = 0; c < 3; ++c) store(v[c] + first, eight(c, load(f[c] + first), load(v[c] + first)));
+      return de::KickSums{sum_lanes(eight.across), sum_lanes(eight.after), 0, 0};
     }
-    return de::KickSums{sum_lanes(across), sum_lanes(after_twice), 0, 0};
+    de::KickSums sums;
+    for (std::size_t i = first; i < end; ++i) {
+      NodeKick<double> one{kick, mass[i]};
+      for (int c = 0; c < 3; ++c)
+        if (!(held[i] >> c & 1)) v[c][i] = one(c, f[c][i], v[c][i]);
+      sums += {one.across, one.after, 0, 0};
+    }
+    return sums;
   };
   constexpr std::size_t block = 64;  // packs
-  return sum<de::KickSums, block>((mesh.nodes() + lanes - 1) / lanes, kick_eight);
+  return sum<de::KickSums, block>((mesh.nodes() + lanes - 1) / lanes, kick_pack);
 }
 
 template <int N>

@@ -20,10 +20,10 @@ namespace {
 
 const std::map<std::string, std::string> golden{
     {"ball-on-plate", "1be780663f22183f"},
-    {"beam", "6336e947348a5353"},
-    {"wide-beam", "3e7a47164ac4d116"},
+    {"beam", "6e64e029e18468f2"},
+    {"wide-beam", "b1352df12653ef50"},
 };
-const std::string golden_of_the_published_beam = "8cd8b013773b768e";
+const std::string golden_of_the_published_beam = "321e5a6c0389f80d";
 
 constexpr long steps = 500;
 
