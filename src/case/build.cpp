@@ -16,6 +16,7 @@
 #include "geometry/bounds.hpp"
 #include "geometry/packing.hpp"
 #include "geometry/separate.hpp"
+#include "solver/fine_part.hpp"
 
 namespace geist {
 namespace {
@@ -200,6 +201,15 @@ double choose_time_step(const Case& input, const std::vector<TimeStepBound>& bou
   return *input.analysis.time_step;
 }
 
+void subcycle(Built& built, const TimeStepLimits& limits, double safety) {
+  Simulation& sim = built.simulation;
+  const Division division = best_division(sim.model, limits, safety);
+  if (division.fine.empty()) return;
+  sim.dt = division.dt;
+  sim.subcycling = Subcycling(sim.model.mesh, division.fine);
+  built.expected_gain = division.gain;
+}
+
 }  // namespace
 
 Built build(const Case& input) {
@@ -218,8 +228,10 @@ Built build(const Case& input) {
   built.probes = make_probes(input, selector, sim);
   sim.reactions = coupling::Reactions(sim.model);
   sim.contacts = contact::Contacts(sim.model, make_contact_laws(sim.model, input));
-  built.bounds = time_step_bounds(sim.model, sim.contacts);
+  const TimeStepLimits limits = time_step_limits(sim.model, sim.contacts);
+  built.bounds = limits.bounds;
   sim.dt = choose_time_step(input, built.bounds);
+  if (input.analysis.subcycling && !input.analysis.time_step) subcycle(built, limits, input.analysis.safety);
   sim.alpha = input.analysis.damping;
   return built;
 }

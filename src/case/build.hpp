@@ -14,6 +14,7 @@ struct Built {
   Simulation simulation;
   std::vector<Probe> probes;          ///< in file order
   std::vector<TimeStepBound> bounds;  ///< one for each region
+  double expected_gain = 1;           ///< of subcycling, in time
 };
 
 /// Make regions, ghosts, supports, loads, initial motion and probes, and choose the time step.

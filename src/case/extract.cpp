@@ -160,6 +160,7 @@ AnalysisSpec analysis_of(const View& view) {
   spec.max_steps = view.get<long>("max_steps").value();
   spec.safety = view.get<double>("safety").value();
   spec.time_step = view.get<double>("time_step");
+  spec.subcycling = view.get<bool>("subcycling").value_or(false);
   spec.damping = view.get<double>("damping").value_or(0);
   spec.balance_tolerance = view.get<double>("balance_tolerance").value();
   spec.source = view.source();

@@ -180,6 +180,12 @@ std::vector<Key> analysis_steps() {
       number("time_step", "time",
              "Time step, instead of the one computed; it must not exceed the safe bound.")
           .above(0),
+      boolean(
+          "subcycling",
+          "Small elements take shorter steps than the rest, where that saves time and no time_step is given; "
+          "Geist finds out which and how many.")
+          .otherwise("true", "false")
+          .when(dynamic),
       number("damping", "1/time", "Viscous damping proportional to mass: f = −damping·m·v.")
           .at_least(0)
           .otherwise("0")

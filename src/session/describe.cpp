@@ -94,6 +94,17 @@ std::string contacts(const Simulation& sim, const output::UnitSystem& units) {
                             with_commas(static_cast<long long>(sim.contacts.facets())));
 }
 
+/// What subcycling does.
+std::string short_steps(const Built& built, const output::UnitSystem& units) {
+  const Simulation& sim = built.simulation;
+  if (sim.subcycling.empty()) return "";
+  return fmt::format(
+      "  {:<12} {} short steps of {:.6g} {} for {} of {} hexahedra; expected to be {:.2f} times as fast\n",
+      "subcycling", sim.subcycling.ratio(), sim.dt / sim.subcycling.ratio(), units.time().name,
+      with_commas(static_cast<long long>(fine_hexahedra(sim))),
+      with_commas(static_cast<long long>(sim.model.mesh.elements.size())), built.expected_gain);
+}
+
 std::string time_step(const Case& input, const Built& built, const output::UnitSystem& units) {
   const TimeStepBound& least = critical(built.bounds);
   std::string text = "Time step\n";
@@ -106,7 +117,7 @@ std::string time_step(const Case& input, const Built& built, const output::UnitS
       fmt::format("  {:<12} {:.6g} {}{}\n", "used", built.simulation.dt, units.time().name,
                   input.analysis.time_step ? " (as given)"
                                            : fmt::format(" (safety factor {:.3g})", input.analysis.safety));
-  return text;
+  return text + short_steps(built, units);
 }
 
 /// Steps of dynamic relaxation if the body bends like a cantilever of the box around it: its lowest frequency
@@ -163,6 +174,12 @@ std::string describe(const Case& input, const Built& built) {
   if (!input.contact.empty()) text += contacts(built.simulation, units);
   if (input.analysis.type != "static") text += describe_waves(input, model);
   return text + time_step(input, built, units) + analysis(input, built, units);
+}
+
+std::size_t fine_hexahedra(const Simulation& sim) {
+  std::size_t n = 0;
+  for (const std::int32_t b : sim.subcycling.fine().blocks) n += sim.model.mesh.blocks[b].count;
+  return n;
 }
 
 double memory_of(const Model& model) {

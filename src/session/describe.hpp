@@ -1,5 +1,6 @@
 // What the program understood of a case, in words.
 #pragma once
+#include <cstddef>
 #include <string>
 
 #include "case/build.hpp"
@@ -12,6 +13,9 @@ namespace geist {
 std::string describe(const Case& input, const Built& built);
 
 output::UnitSystem units_of(const Case& input);
+
+/// Hexahedra that take short steps.
+std::size_t fine_hexahedra(const Simulation& sim);
 
 /// Bytes that the model's arrays take.
 double memory_of(const Model& model);

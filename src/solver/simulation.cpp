@@ -112,7 +112,7 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   double power = 0;
   {
     const auto timing = timers.time(Phase::elements);
-    power = fe::internal_forces(model.mesh);  // f_I^int of (1)
+    power = elements_forces();  // f_I^int of (1)
   }
   {
     const auto timing = timers.time(Phase::lattice);
@@ -124,6 +124,13 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
     reactions.add(model);                 // (14)
     add_loads(loads, model, model.time);  // f^res of (1)(2)
     contacts.add_to_nodes(model.mesh);
+  }
+  if (!subcycling.empty()) {
+    const auto timing = timers.time(Phase::elements);
+    subcycling.add_mean_forces(model.mesh, g, dt);
+  }
+  {
+    const auto timing = timers.time(Phase::nodes);
     sums += kick_nodes(model.mesh, kick);  // (16)(25)
     sums += kick_touched(kick);
     for (Lattice& lattice : model.lattices)  // ghosts' spins; loaded and supported particles
@@ -132,6 +139,13 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   }
   account(sums, kick_dt, arrived);
   account_damping(power, arrived);
+}
+
+/// Those of fine elements wait until all others are known.
+double Simulation::elements_forces() {
+  if (subcycling.empty()) return fe::internal_forces(model.mesh);
+  clear(model.mesh.f);
+  return fe::add_internal_forces(model.mesh, subcycling.others(), 1);
 }
 
 /// Trapezoidal rule on Σ α m v². Hourglass control is reckoned with v^{n−½}, so that its work over the step

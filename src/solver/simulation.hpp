@@ -9,6 +9,7 @@
 #include "model/model.hpp"
 #include "solver/ledger.hpp"
 #include "solver/loads.hpp"
+#include "solver/subcycling.hpp"
 #include "solver/supports.hpp"
 #include "solver/timers.hpp"
 
@@ -24,6 +25,7 @@ class Simulation {
   Supports supports;
   coupling::Reactions reactions;
   contact::Contacts contacts;
+  Subcycling subcycling;
   double dt = 0;     ///< time step
   double alpha = 0;  ///< damping: f = −α m v on everything that moves freely, 1/time
   Timers timers;
@@ -55,6 +57,7 @@ class Simulation {
 
  private:
   void forces_and_kick(double kick_dt, bool arrived);
+  double elements_forces();
   de::KickSums kick_touched(const de::Kick& kick);
   void keep_velocities();
   void account(const de::KickSums& sums, double kick_dt, bool arrived);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "coupling/ghosts.hpp"
 #include "de/bonds.hpp"
@@ -52,6 +53,27 @@ double combined(double omega2_e, double g, bool viscous) {
   return omega * omega;
 }
 
+double frequency_squared(const Mesh& mesh, std::int32_t i, const NodeBounds& at, bool viscous) {
+  return combined(at.elements[i] / mesh.mass[i], (at.ghosts[i] + at.contacts[i]) / mesh.mass[i], viscous);
+}
+
+NodeLimits node_limits(const Mesh& mesh, const NodeBounds& at) {
+  NodeLimits limits{std::vector<double>(mesh.nodes()), std::vector<double>(mesh.nodes()),
+                    std::vector<std::uint8_t>(mesh.nodes())};
+  for (std::size_t i = 0; i < mesh.nodes(); ++i)
+    limits.of_others[i] = (at.ghosts[i] + at.contacts[i]) / mesh.mass[i];
+  for (const HexRegion& region : mesh.regions) {
+    const bool viscous = has_viscous_control(region);
+    for (std::size_t e = region.first; e < region.first + region.count; ++e)
+      for (const std::int32_t i : mesh.elements[e]) {
+        double& omega2 = limits.frequency_squared[i];
+        if (mesh.held[i] != 0b111) omega2 = std::max(omega2, frequency_squared(mesh, i, at, viscous));
+        limits.viscous[i] |= viscous;
+      }
+  }
+  return limits;
+}
+
 TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBounds& at, bool held_too) {
   const bool viscous = has_viscous_control(region);
   double worst = 0;
@@ -59,8 +81,7 @@ TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBou
   for (std::size_t e = region.first; e < region.first + region.count; ++e)
     for (const std::int32_t i : mesh.elements[e]) {
       if (mesh.held[i] == 0b111 && !held_too) continue;
-      const double omega2 =
-          combined(at.elements[i] / mesh.mass[i], (at.ghosts[i] + at.contacts[i]) / mesh.mass[i], viscous);
+      const double omega2 = frequency_squared(mesh, i, at, viscous);
       if (omega2 > worst) worst = omega2, node = i;
     }
   const Vec3 p = mesh.points[node];
@@ -72,6 +93,10 @@ TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBou
 }  // namespace
 
 std::vector<TimeStepBound> time_step_bounds(const Model& model, const contact::Contacts& contacts) {
+  return time_step_limits(model, contacts).bounds;
+}
+
+TimeStepLimits time_step_limits(const Model& model, const contact::Contacts& contacts) {
   std::vector<TimeStepBound> bounds;
   const NodeBounds at = node_bounds(model, contacts);
   const auto held = [](std::uint8_t bits) { return bits == 0b111; };
@@ -86,7 +111,7 @@ std::vector<TimeStepBound> time_step_bounds(const Model& model, const contact::C
                       fmt::format("bonds{} of particles, r = {:.6g}", charge > 0 ? " and contacts" : "",
                                   lattice.radius())});
   }
-  return bounds;
+  return {std::move(bounds), node_limits(model.mesh, at)};
 }
 
 const TimeStepBound& critical(const std::vector<TimeStepBound>& bounds) {

@@ -11,6 +11,7 @@
 // Hence ω_max² ≤ max( ω_L² + c_d, max over I of (Σ_e ω_e² m_eI + ω_L² Σ_g N_I m_d + c_I) / m_I ), over the
 // nodes that are not held.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,20 @@ struct TimeStepBound {
 
 /// One bound for each region, mesh regions first.
 std::vector<TimeStepBound> time_step_bounds(const Model& model, const contact::Contacts& contacts);
+
+/// By node: ω² of the sum above, over its regions the largest, 0 where a support holds it; what ghosts and
+/// contacts have in that, Σ ω² m / m_I; and whether elements with viscous control act on it.
+struct NodeLimits {
+  std::vector<double> frequency_squared, of_others;
+  std::vector<std::uint8_t> viscous;
+};
+
+/// The bounds, and what those of hexahedra are made of.
+struct TimeStepLimits {
+  std::vector<TimeStepBound> bounds;
+  NodeLimits nodes;
+};
+TimeStepLimits time_step_limits(const Model& model, const contact::Contacts& contacts);
 
 /// The smallest of them.
 const TimeStepBound& critical(const std::vector<TimeStepBound>& bounds);

@@ -112,6 +112,7 @@ duration = 0.01
 max_steps = 1000
 safety = 0.8
 time_step = 1e-7
+subcycling = true
 damping = 5
 balance_tolerance = 0.1
 

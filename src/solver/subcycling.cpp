@@ -1,0 +1,121 @@
+#include "solver/subcycling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "fe/elements.hpp"
+
+namespace geist {
+namespace {
+
+constexpr std::size_t grain = 500;
+
+/// T_0(δ) … T_m(δ), and ω = 2 T_m'(δ) / T_m(δ), of damping ν.
+struct Chebyshev {
+  double delta, omega;
+  std::vector<double> T;
+
+  explicit Chebyshev(int m) : delta(1 + 0.1 / (m * m)), T{1, delta} {
+    std::vector<double> slope{0, 1};
+    for (int k = 1; k < m; ++k) {
+      T.push_back(2 * delta * T[k] - T[k - 1]);
+      slope.push_back(2 * T[k] + 2 * delta * slope[k] - slope[k - 1]);
+    }
+    omega = 2 * slope[m] / T[m];
+  }
+};
+
+}  // namespace
+
+std::vector<Substep> substeps(int m) {
+  if (m == 1) return {{0, 0.5, 1}};
+  const Chebyshev c(m);
+  std::vector<Substep> steps{{0, 1 / (c.omega * c.delta), 0}};
+  for (int k = 1; k < m; ++k)
+    steps.push_back({c.T[k - 1] / c.T[k + 1], 2 * c.T[k] / (c.omega * c.T[k + 1]), 0});
+  // z_m − z_0 = Σ_k γ_k (1 + κ_{k+1} (1 + κ_{k+2} (…))) Δt² a_k = ½ Δt² ã
+  double onwards = 0;
+  for (int k = m; k-- > 0;) {
+    onwards = 1 + (k + 1 < m ? steps[k + 1].keep * onwards : 0);
+    steps[k].share = 2 * steps[k].gain * onwards;
+  }
+  return steps;
+}
+
+double stable_phase(int m) {
+  if (m == 1) return 2;
+  const Chebyshev c(m);
+  return std::sqrt(2 * c.delta * c.omega);  // T_m(δ − φ²/ω) = ±T_m(δ) at the end of −δ … δ
+}
+
+double stable_remainder(int m) {
+  return m == 1 ? 0
+                : 2 - 2 / Chebyshev(m).T.back();  // from 2 (1 + 1/T_m(δ)), where resonances would be, to 4
+}
+
+Subcycling::Subcycling(const Mesh& mesh, const FinePart& part) {
+  if (part.empty()) return;
+  steps_ = substeps(part.m);
+  fine_ = make_sweep(mesh, part.blocks), others_ = make_sweep(mesh, part.others);
+  for (const std::int32_t b : part.blocks)
+    for (int l = 0; l < mesh.blocks[b].count; ++l)
+      nodes_.insert(nodes_.end(), mesh.elements[mesh.blocks[b].first + l].begin(),
+                    mesh.elements[mesh.blocks[b].first + l].end());
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  for (const std::int32_t i : nodes_) still_.push_back(part.is_fine[i] ? mesh.held[i] : 0b111);
+  for (Field<3>* field : {&u_, &rest_, &increment_, &mean_}) *field = Field<3>(nodes_.size());
+}
+
+void Subcycling::add_mean_forces(Mesh& mesh, Vec3 gravity, double dt) {
+  begin(mesh);
+  for (const Substep& step : steps_) {
+    fe::add_internal_forces(mesh, fine_, 1);
+    move(mesh, step, gravity, dt);
+  }
+  end(mesh);
+}
+
+void Subcycling::begin(Mesh& mesh) {
+  for_each(
+      nodes_.size(),
+      [this, &mesh](std::size_t n) {
+        const auto i = static_cast<std::size_t>(nodes_[n]);
+        u_.set(n, mesh.u.vector(i)), rest_.set(n, mesh.f.vector(i)), mean_.set(n, mesh.f.vector(i));
+        mesh.f.set(i, {});
+      },
+      grain);
+}
+
+/// Takes the forces of the fine blocks from mesh.f, which is zero again then.
+void Subcycling::move(Mesh& mesh, const Substep& step, Vec3 gravity, double dt) {
+  for_each(
+      nodes_.size(),
+      [=, this, &mesh, gain = step.gain * dt * dt](std::size_t n) {
+        const auto i = static_cast<std::size_t>(nodes_[n]);
+        const double per_mass = gain / mesh.mass[i];
+        for (int c = 0; c < 3; ++c) {
+          const double f = mesh.f[c][i];
+          mesh.f[c][i] = 0;
+          mean_[c][n] = fma(step.share, f, mean_[c][n]);
+          if (still_[n] >> c & 1) continue;
+          const double push = fma(per_mass, f + rest_[c][n], gain * gravity[c]);
+          increment_[c][n] = fma(step.keep, increment_[c][n], push);
+          mesh.u[c][i] += increment_[c][n];
+        }
+      },
+      grain);
+}
+
+void Subcycling::end(Mesh& mesh) {
+  for_each(
+      nodes_.size(),
+      [this, &mesh](std::size_t n) {
+        const auto i = static_cast<std::size_t>(nodes_[n]);
+        mesh.u.set(i, u_.vector(n)), mesh.f.set(i, mean_.vector(n));
+      },
+      grain);
+}
+
+}  // namespace geist
