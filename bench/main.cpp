@@ -32,7 +32,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--edges", o.edges, "particles or elements along an edge (40 100; quick: 40)");
   app.add_option("--subjects", o.subjects,
                  "lattice, one-point, assumed-strain, selective-reduced, full; each also with "
-                 "+contact, or with +finite");
+                 "+contact, +finite, +consistent");
   app.add_option("--out", o.out, "write FILE.csv and FILE.json")->type_name("FILE");
 }
 

@@ -5,16 +5,17 @@
 #include "case/read.hpp"
 #include "clock.hpp"
 #include "de/bonds.hpp"
-#include "de/rotation.hpp"
 #include "fe/elements.hpp"
 #include "solver/nodes.hpp"
 
 namespace geist::bench {
 namespace {
 
-/// What may follow a name: contact is watched for, or rotations are finite.
-bool is_watched(const std::string& name) { return name.ends_with("+contact"); }
-bool turns(const std::string& name) { return name.ends_with("+finite"); }
+/// What may follow a name: contact is watched for, rotations are finite, the method is consistent.
+bool has(const std::string& name, const char* word) { return name.find(word) != std::string::npos; }
+bool is_watched(const std::string& name) { return has(name, "+contact"); }
+bool turns(const std::string& name) { return has(name, "+finite"); }
+bool is_consistent(const std::string& name) { return has(name, "+consistent"); }
 std::string material_of(const std::string& name) { return name.substr(0, name.find('+')); }
 
 /// A small block beside the cube, too far to be touched, and contact between all.
@@ -41,7 +42,7 @@ std::string case_text(const std::string& full_name, int edge) {
                                                      "formulation = \"{1}\"\n",
                                                      edge, name);
   return fmt::format(R"(title = "benchmark"
-method = "published"
+method = "{4}"
 units = {{ length = "mm", mass = "g", time = "ms" }}
 [materials.polymer]
 density = 0.001
@@ -64,33 +65,23 @@ type = "dynamic"
 kinematics = "{3}"
 duration = 1e6
 )",
-                     edge, region, edge * edge, turns(full_name) ? "finite" : "small") +
+                     edge, region, edge * edge, turns(full_name) ? "finite" : "small",
+                     is_consistent(full_name) ? "consistent" : "published") +
          (is_watched(full_name) ? watched_text(edge) : std::string());
 }
 
 void add_lattice_kernels(Subject& s) {
   Lattice& lattice = s.simulation().model.lattices.front();
+  const LatticeKind kind{is_consistent(s.name), turns(s.name)};
   s.items = static_cast<double>(lattice.count(site::particle));
-  s.working_set = lattice.grid.size() * (12 * sizeof(double) + sizeof(std::uint32_t));
-  s.kernels = {
-      {"bond forces and kick", [&] { de::bond_forces_and_kick(lattice, de::Kick{}); }, bonds_and_kick()},
-      {"drift", [&] { drift(lattice.motion, lattice.velocity, 0); }, lattice_drift()}};
-}
-
-void add_finite_lattice_kernels(Subject& s) {
-  Lattice& lattice = s.simulation().model.lattices.front();
-  lattice.kinematics = Kinematics::finite;
-  lattice.rotation = Field<9>(lattice.grid.size(), lattice.grid.guard());
-  s.items = static_cast<double>(lattice.count(site::particle));
-  s.working_set = lattice.grid.size() * (18 * sizeof(double) + sizeof(std::uint32_t));
-  s.kernels = {{"bond forces and kick", [&] { de::bond_forces_and_kick(lattice, de::Kick{}); },
-                finite_bonds_and_kick()},
-               {"drift",
-                [&] {
-                  drift(lattice.motion, lattice.velocity, 0, 3);
-                  de::turn(lattice, 0);
-                },
-                finite_drift()}};
+  s.working_set = lattice.grid.size() * ((kind.finite ? 18 : 12) * sizeof(double) + sizeof(std::uint32_t));
+  const Kernel sweep{"drift, bond forces and kick", [&] { de::advance(lattice, de::Kick{}, 0); },
+                     drift_bonds_and_kick(kind)};
+  const Kernel forces{"bond forces and kick", [&] { de::bond_forces_and_kick(lattice, de::Kick{}); },
+                      bonds_and_kick(kind)};
+  const Kernel drift{"drift", [&] { de::drift(lattice, 0); }, lattice_drift(kind)};
+  s.kernels = {sweep, forces, drift};
+  s.step = is_watched(s.name) ? forces.work + drift.work : sweep.work;
 }
 
 void add_element_kernels(Subject& s) {
@@ -101,7 +92,8 @@ void add_element_kernels(Subject& s) {
   s.kernels = {{"internal forces", [&] { fe::internal_forces(mesh); },
                 internal_forces(material_of(s.name), turns(s.name))},
                {"kick", [&] { kick_nodes(mesh, de::Kick{}); }, node_kick()},
-               {"drift", [&] { drift(mesh.u, mesh.v, 0); }, node_drift()}};
+               {"drift", [&] { drift(mesh, 0); }, node_drift()}};
+  for (const Kernel& k : s.kernels) s.step = s.step + k.work;
 }
 
 }  // namespace
@@ -114,13 +106,10 @@ std::unique_ptr<Subject> make_subject(const std::string& name, int edge) {
   const double begin = now();
   subject->built = build(read_case_text(case_text(name, edge), "benchmark"));
   subject->build_seconds = now() - begin;
-  if (material_of(name) == "lattice" && turns(name))
-    add_finite_lattice_kernels(*subject);
-  else if (material_of(name) == "lattice")
+  if (material_of(name) == "lattice")
     add_lattice_kernels(*subject);
   else
     add_element_kernels(*subject);
-  for (const Kernel& k : subject->kernels) subject->step = subject->step + k.work;
   subject->simulation().start();
   for (int i = 0; i < 5; ++i) subject->simulation().step(false);
   return subject;

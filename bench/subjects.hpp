@@ -19,9 +19,9 @@ struct Kernel {
 
 /// A cube, one face held and the opposite one pulled, in smooth motion.
 struct Subject {
-  std::string name;  ///< "lattice", or a formulation of hexahedra; then "+contact", "+finite" or nothing
-  int edge = 0;      ///< particles or elements along an edge
-  double items = 0;  ///< particles or elements
+  std::string name;             ///< "lattice", or a formulation of hexahedra; then what follows
+  int edge = 0;                 ///< particles or elements along an edge
+  double items = 0;             ///< particles or elements
   std::size_t working_set = 0;  ///< bytes that a step touches
   double build_seconds = 0;
   Work step;  ///< of a whole step
@@ -32,8 +32,8 @@ struct Subject {
   std::string size() const;
 };
 
-/// A name that ends in "+contact": another body is near, all may touch, and nothing does. In "+finite":
-/// rotations are finite.
+/// Behind the material any of: "+contact", another body is near, all may touch, and nothing does; "+finite",
+/// rotations are finite; "+consistent", a lattice's method is.
 std::unique_ptr<Subject> make_subject(const std::string& name, int edge);
 
 }  // namespace geist::bench

@@ -23,37 +23,40 @@ struct Counted {
   friend Counted fma(Counted a, Counted b, Counted c) { return flops += 2, a.value * b.value + c.value; }
 };
 
-/// 459, and by hand:
-///   group 1 (6 bonds): 2 sums of spins, d 2 × 3 + 1, f 6 (one of them 0 + d), sums of force and moment 5: 20
-///   group 2 (12 bonds): 3 + 1 sums of spins, d 3 × 3, f 8 (one 0 + d), moment 1, sums 6: 28 r × moment: 3
-///   6·20 + 12·28 + 3 = 459
-/// The template does five more in each bond of group 1 with results that nobody uses or that are zero, and
-/// the compiler knows it: the third sum of spins, the d along the bond that is replaced (3), the moment about
-/// it.
-double stencil_flops() {
-  constexpr double idle = 6 * 5;
-  double zeros[2] = {0, 0};
-  const de::MotionView motion{{zeros, zeros, zeros, zeros, zeros, zeros}};
-  const std::ptrdiff_t offset[18] = {};
-  Counted f[6];
-  Counted::flops = 0;
-  de::site_force(motion, 0, offset, de::ElasticBond{1, 1}, 1.0, de::AllBonds{}, f);
-  return static_cast<double>(Counted::flops) - idle;
-}
-
-/// 933, and by hand:
-///   group 1 (6 bonds): h 3, d 9, p 1, d·p 5, pull 1, force 9, g 9, sums 6: 43
-///   group 2 (12 bonds): h 9, d 9, p 2, d·p 5, pull 1, force 9, g 9, sums 9: 53
-///   three cross products: 3 × (1 + 12)
-double finite_stencil_flops() {
+template <class Law>
+double count(const Law& law, bool finite) {
   double zeros[2] = {0, 0};
   double* const z = zeros;
-  const de::FiniteView motion{{z, z, z}, {z, z, z, z, z, z, z, z, z}};
   const std::ptrdiff_t offset[18] = {};
   Counted f[6];
   Counted::flops = 0;
-  de::site_force(motion, 0, offset, de::ElasticBond{1, 1}, 1.0, de::AllBonds{}, f);
+  if (finite)
+    de::site_force(de::FiniteView{{z, z, z}, {z, z, z, z, z, z, z, z, z}}, 0, offset, law, 1.0,
+                   de::AllBonds{}, f);
+  else
+    de::site_force(de::MotionView{{z, z, z, z, z, z}}, 0, offset, law, 1.0, de::AllBonds{}, f);
   return static_cast<double>(Counted::flops);
+}
+
+/// Small rotations, published: 441, and by hand
+///   group 1 (6 bonds): 2 sums of spins, d 2 × 3 + 1, f 5, sums of force and moment 5: 19
+///   group 2 (12 bonds): 3 + 1 sums of spins, d 3 × 3, f 7, moment 1, sums 6: 27;   r × moment: 3
+/// consistent: 303
+///   group 1: 19, and bending 3 × 3: 28;   group 2: 1 sum of spins, d 2 × 3, f 2, sums 2: 11
+/// The template does more, with results that nobody uses or that are zero, and the compiler knows it. Group
+/// 1: the third sum of spins, the d along the bond that is replaced (3), the moment about it. Diagonals that
+/// do not shear: three sums of spins, the d across (3), the moment.
+///
+/// Finite rotations, published: 933, and by hand
+///   group 1: h 3, d 9, p 1, d·p 5, pull 1, force 9, g 9, sums 6: 43
+///   group 2: h 9, d 9, p 2, d·p 5, pull 1, force 9, g 9, sums 9: 53
+///   three cross products: 3 × (1 + 12)
+/// consistent, 1023: bending 27 more in group 1, force 3 in group 2.
+double stencil_flops(LatticeKind kind) {
+  const double idle = kind.finite ? 0 : kind.consistent ? 6 * 5 + 12 * 7 : 6 * 5;
+  return (kind.consistent ? count(de::EndlessBond{}, kind.finite)
+                          : count(de::ElasticBond{1, 1}, kind.finite)) -
+         idle;
 }
 
 fe::Corners<Counted> unit_cube() {
@@ -72,18 +75,17 @@ constexpr double unused_modes = 6;
 }  // namespace
 
 // Kick with sums, by hand: displacements 3 × (keep 2, force 2, sums 2 + 2) = 24; spins 3 × (1 + 2 + 2 + 2)
-// = 21. Bytes: motion 6 × 8, velocity read and written 12 × 8, word 4.
-Work bonds_and_kick() { return {stencil_flops() + 24 + 21, 148}; }
+// = 21. Bytes: motion 6 × 8 (finite: u and H 12 × 8), velocity read and written 12 × 8, word 4.
+Work bonds_and_kick(LatticeKind kind) { return {stencil_flops(kind) + 24 + 21, kind.finite ? 196. : 148.}; }
 
-// Six multiply-adds; motion read and written, velocity read: 18 × 8.
-Work lattice_drift() { return {12, 144}; }
+// Small: six multiply-adds. Finite: u 6; ψ 3, ψ² 5, series 6, τ 3, scale 4, columns 3 × 28, A 6 × 8, columns
+// again 9 × 7: 222. Bytes: motion (u and H) read and written, velocity read.
+Work lattice_drift(LatticeKind kind) { return kind.finite ? Work{222, 240} : Work{12, 144}; }
 
-// Bytes: u and H 12 × 8, velocity read and written 12 × 8, word 4.
-Work finite_bonds_and_kick() { return {finite_stencil_flops() + 24 + 21, 196}; }
-
-// u 6; ψ 3, ψ² 5, series 6, τ 3, scale 4, columns 3 × 28, A 6 × 8, columns again 9 × 7: 216. Bytes: u and H
-// read and written, v and ω read: 30 × 8.
-Work finite_drift() { return {6 + 216, 240}; }
+// Bytes: motion and velocity read and written, word.
+Work drift_bonds_and_kick(LatticeKind kind) {
+  return {lattice_drift(kind).flops + bonds_and_kick(kind).flops, kind.finite ? 292. : 196.};
+}
 
 // X and u 6 × 8; forces cleared (their lines read before), read and written, 4 × 24; by element 24 flops to
 // add its forces, and of every eighth the nodes 8 × 4. With a strain of 10⁻³ the rotation takes three

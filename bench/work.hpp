@@ -14,11 +14,13 @@ struct Work {
   friend Work operator+(Work a, Work b) { return {a.flops + b.flops, a.bytes + b.bytes}; }
 };
 
-/// By particle.
-Work bonds_and_kick();
-Work lattice_drift();
-Work finite_bonds_and_kick();
-Work finite_drift();
+/// By particle, of lattices that are consistent or published, with finite rotations or small ones.
+struct LatticeKind {
+  bool consistent = false, finite = false;
+};
+Work bonds_and_kick(LatticeKind kind);
+Work lattice_drift(LatticeKind kind);
+Work drift_bonds_and_kick(LatticeKind kind);  ///< in one pass
 
 /// By element; a large block has as many nodes as elements.
 Work internal_forces(const std::string& formulation, bool finite);

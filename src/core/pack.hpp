@@ -34,6 +34,13 @@ GEIST_INLINE Pack load(const double* p) {
   std::memcpy(&a, p, sizeof a);
   return a;
 }
+/// Eight words.
+GEIST_INLINE PackInt load(const std::uint32_t* p) {
+  using Words = std::uint32_t __attribute__((vector_size(lanes * sizeof(std::uint32_t))));
+  Words w;
+  std::memcpy(&w, p, sizeof w);
+  return __builtin_convertvector(w, PackInt);
+}
 GEIST_INLINE void store(double* p, Pack a) { std::memcpy(p, &a, sizeof a); }
 
 GEIST_INLINE Pack broadcast(double s) { return s - Pack{}; }
@@ -62,13 +69,47 @@ GEIST_INLINE Pack fma(Pack a, Pack b, Pack c) {
 GEIST_INLINE Pack fma(double a, Pack b, Pack c) { return fma(broadcast(a), b, c); }
 GEIST_INLINE Pack fma(Pack a, double b, Pack c) { return fma(a, broadcast(b), c); }
 
+/// a in the lanes where mask is −1, b where it is 0. Without masks in hardware bit by bit: compilers would go
+/// lane by lane.
+GEIST_INLINE Pack select(PackInt mask, Pack a, Pack b) {
+#if defined(__AVX512F__)
+  return mask ? a : b;
+#else
+  return (Pack)(((PackInt)a & mask) | ((PackInt)b & ~mask));
+#endif
+}
+
+/// a in the lanes whose word has that bit, else 0.
+template <int bit>
+GEIST_INLINE Pack where_set(PackInt word, Pack a) {
+#if defined(__AVX512F__)
+  return (word & (std::int64_t{1} << bit)) != 0 ? a : Pack{};
+#else
+  return (Pack)((PackInt)a & -((word >> bit) & 1));
+#endif
+}
+
+/// 1, but the compiler may not know.
+inline const volatile double hidden_one = 1;
+
+/// a + b to the same bits, of packs in hardware by the units that multiply; one is hidden_one. Processors
+/// begin as many multiplications as additions in a cycle, so this is for some of the sums where a kernel has
+/// little to multiply.
+template <class T>
+GEIST_INLINE T add_by_fma([[maybe_unused]] double one, T a, T b) {
+#if defined(__AVX512F__)
+  if constexpr (std::is_same_v<T, Pack>) return fma(one, a, b);
+#endif
+  return a + b;
+}
+
 /// The value of type T (double or Pack) all of whose lanes are s.
 template <class T>
 GEIST_INLINE T constant(double s) {
-  if constexpr (std::is_same_v<T, double>)
-    return s;
-  else
+  if constexpr (std::is_same_v<T, Pack>)
     return broadcast(s);
+  else
+    return s;
 }
 
 /// Sum of the lanes in a fixed order.

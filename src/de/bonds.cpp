@@ -1,23 +1,16 @@
 #include "de/bonds.hpp"
 
+#include <algorithm>
 #include <bit>
-#include <cstring>
 #include <type_traits>
 
 #include "core/parallel.hpp"
+#include "de/drift.hpp"
 #include "de/finite_stencil.hpp"
 #include "de/stencil.hpp"
 
 namespace geist::de {
 namespace {
-
-/// The words of eight sites.
-GEIST_INLINE PackInt words(const std::uint32_t* word) {
-  using Words = std::uint32_t __attribute__((vector_size(lanes * sizeof(std::uint32_t))));
-  Words w;
-  std::memcpy(&w, word, sizeof w);
-  return __builtin_convertvector(w, PackInt);
-}
 
 /// The bonds of published lattices: the same everywhere.
 struct Published {
@@ -28,21 +21,44 @@ struct Published {
   GEIST_INLINE const ElasticBond& at(std::size_t) const {
     return inner;
   }
+  /// visit(law) with the bonds of eight sites.
+  template <class Visit>
+  GEIST_INLINE void visit(std::size_t, Visit visit_law) const {
+    visit_law(inner);
+  }
 };
 
 /// The bonds of consistent lattices: those of the endless lattice, or by the sites' classes.
 struct Consistent {
+  static constexpr std::uint32_t none = ~0u;
   EndlessBond inner;
   const BondClass* classes;
-  const std::uint32_t* class_of;
+  const std::uint32_t *class_of, *word;
 
   explicit Consistent(const Lattice& lattice)
       : inner(EndlessBond::from(lattice.material, lattice.radius())),
         classes(lattice.classes.data()),
-        class_of(lattice.class_of.data()) {}
+        class_of(lattice.class_of.data()),
+        word(lattice.word.data()) {}
   template <class T = Pack>
   GEIST_INLINE ClassBonds<T> at(std::size_t s) const {
     return {inner, classes, class_of + s};
+  }
+  /// Most packs have one class, at ends of rows two: those of their first and last sites.
+  template <class Visit>
+  GEIST_INLINE void visit(std::size_t s, Visit visit_law) const {
+    std::uint32_t first = none, last = none;
+    bool others = false;
+    for (std::size_t l = s; l < s + lanes; ++l)
+      if (word[l]) last = class_of[l], first = first == none ? last : first;
+    for (std::size_t l = s; l < s + lanes; ++l)
+      others |= word[l] != 0 && class_of[l] != first && class_of[l] != last;
+    if (others)
+      visit_law(at(s));
+    else if (first == last)
+      visit_law(ClassBonds<double>(inner, classes, &first));
+    else
+      visit_law(TwoClassBonds{inner, classes + first, classes + last, load(class_of + s) == last});
   }
 };
 
@@ -87,9 +103,11 @@ struct RowKernel {
 
   /// Eight sites of any kind; returns the next place in listed_force.
   GEIST_INLINE std::int32_t mixed(std::size_t s, std::int32_t slot, Accumulated& sums) const {
-    const PackInt w = words(word + s);
+    const PackInt w = load(word + s);
     Pack f[6];
-    site_force(motion, s, offset, method.at(s), r, SomeBonds{w}, f);
+    method.visit(
+        s, [&](const auto& law)
+               __attribute__((always_inline)) { site_force(motion, s, offset, law, r, SomeBonds{w}, f); });
     if constexpr (std::is_same_v<Method, Dilating>) method.add_all(s, f);
     const PackInt free = -((w / site::free) & 1);
     advance(
@@ -171,7 +189,7 @@ struct SiteEnergies {
   }
 
   Pack at(std::size_t s) const {
-    const SomeBonds bonds{words(word + s)};
+    const SomeBonds bonds{load(word + s)};
     const auto& law = method.at(s);
     Pack energy = {};
     [&]<int... D>(std::integer_sequence<int, D...>) {
@@ -190,21 +208,62 @@ struct SiteEnergies {
   }
 };
 
-template <class Kernel>
-KickSums forces_and_kick(const Kernel& kernel, std::vector<double>& row_sums, std::size_t rows) {
-  row_sums.resize(4 * rows);
-  double* const sums = row_sums.data();
-  for_each(
-      rows,
-      [=](std::size_t row) {
-        const KickSums s = kernel.row(row);
-        sums[4 * row] = s.across, sums[4 * row + 1] = s.after;
-        sums[4 * row + 2] = s.spin_across, sums[4 * row + 3] = s.spin_after;
-      },
-      8);
+struct NoDrift {
+  GEIST_INLINE void operator()(std::size_t) const {}
+};
+
+/// Drift, forces and kick in one pass over the rows: each row drifts just before the first forces that depend
+/// on it. Those that forces of several shares depend on have drifted before.
+template <class Kernel, class Drift>
+struct Sweep {
+  Kernel kernel;
+  Drift drift;
+  std::size_t rows, reach;  ///< forces on a row depend on rows up to `reach` away
+  double* sums;
+
+  /// Rows of a share that no other share's forces depend on.
+  Indices inside(Indices share) const {
+    const std::size_t begin = share.begin == 0 ? 0 : std::min(share.begin + reach, share.end);
+    return {begin, share.end == rows ? rows : std::max(begin, share.end - std::min(reach, share.end))};
+  }
+  void drift_row(std::size_t row) const {
+    for (std::size_t s = row * kernel.stride; s < (row + 1) * kernel.stride; s += lanes) drift(s);
+  }
+  void prepare(Indices share) const {
+    const Indices later = inside(share);
+    for (std::size_t row = share.begin; row < later.begin; ++row) drift_row(row);
+    for (std::size_t row = later.end; row < share.end; ++row) drift_row(row);
+  }
+  void run(Indices share) const {
+    Indices later = inside(share);
+    for (std::size_t row = share.begin; row < share.end; ++row) {
+      for (; later.begin < std::min(later.end, row + reach + 1); ++later.begin) drift_row(later.begin);
+      const KickSums s = kernel.row(row);
+      sums[4 * row] = s.across, sums[4 * row + 1] = s.after;
+      sums[4 * row + 2] = s.spin_across, sums[4 * row + 3] = s.spin_after;
+    }
+  }
+};
+
+SmallDrift drift_of(const MotionView&, Lattice& lattice, double dt) { return {lattice, dt}; }
+FiniteDrift drift_of(const FiniteView&, Lattice& lattice, double dt) { return {lattice, dt}; }
+
+/// One pass, or without drift the forces and the kick alone.
+template <class Kernel, class Drift>
+KickSums run(const Kernel& kernel, const Drift& drift, Lattice& lattice) {
+  const std::size_t rows = lattice.grid.rows();
+  lattice.row_sums.resize(4 * rows);
+  const Sweep<Kernel, Drift> sweep{kernel, drift, rows, static_cast<std::size_t>(lattice.grid.ny) + 1,
+                                   lattice.row_sums.data()};
+  constexpr std::size_t few = 8;  // rows that are not worth waking the threads
+  if constexpr (!std::is_same_v<Drift, NoDrift>)
+    for_each_share(
+        rows, [sweep](Indices share) { sweep.prepare(share); }, few);
+  for_each_share(
+      rows, [sweep](Indices share) { sweep.run(share); }, few);
   KickSums total;
-  for (std::size_t row = 0; row < rows; ++row)
-    total += {sums[4 * row], sums[4 * row + 1], sums[4 * row + 2], sums[4 * row + 3]};
+  const double* sums = sweep.sums;
+  for (std::size_t row = 0; row < rows; ++row, sums += 4) total += {sums[0], sums[1], sums[2], sums[3]};
   return total;
 }
 
@@ -252,11 +311,30 @@ auto with_kinematics(const Lattice& lattice, F f) {
 KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick) {
   if (lattice.dilates()) {
     find_pressures(lattice);
-    return forces_and_kick(row_kernel(Dilating(lattice), view(lattice.motion), lattice, kick),
-                           lattice.row_sums, lattice.grid.rows());
+    return run(row_kernel(Dilating(lattice), view(lattice.motion), lattice, kick), NoDrift(), lattice);
   }
   return with_kinematics(lattice, [&](const auto& method, const auto& motion) {
-    return forces_and_kick(row_kernel(method, motion, lattice, kick), lattice.row_sums, lattice.grid.rows());
+    return run(row_kernel(method, motion, lattice, kick), NoDrift(), lattice);
+  });
+}
+
+void drift(Lattice& lattice, double dt) {
+  const auto drift_all = [&lattice](const auto& drift) {
+    for_each(
+        lattice.grid.size() / lanes, [drift](std::size_t pack) { drift(lanes * pack); }, 512);
+  };
+  lattice.kinematics == Kinematics::finite ? drift_all(FiniteDrift(lattice, dt))
+                                           : drift_all(SmallDrift(lattice, dt));
+}
+
+KickSums advance(Lattice& lattice, const Kick& kick, double dt) {
+  if (lattice.dilates()) {  // pressures have a pass of their own between the two
+    drift(lattice, dt);
+    return bond_forces_and_kick(lattice, kick);
+  }
+  return with_kinematics(lattice, [&](const auto& method, const auto& motion) {
+    const auto kernel = row_kernel(method, motion, lattice, kick);
+    return run(kernel, drift_of(motion, lattice, dt), lattice);
   });
 }
 

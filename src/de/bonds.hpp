@@ -31,6 +31,14 @@ struct KickSums {
 /// are. Any number of threads gives the same bits.
 KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick);
 
+/// u^{n+1} = u^n + Δt v^{n+1/2} of every site, θ likewise, or R by the rotation about Δt ω. Ghosts that turn
+/// with the continuum keep their R.
+void drift(Lattice& lattice, double dt);
+
+/// drift() and bond_forces_and_kick() to the same bits, but in one pass over memory where the lattice does
+/// not resist dilatation. Ghosts must follow their hexahedra already: nothing changes their displacement.
+KickSums advance(Lattice& lattice, const Kick& kick, double dt);
+
 /// The same kick for the listed sites, with lattice.listed_force, in the components that are not held.
 KickSums kick_listed(Lattice& lattice, const Kick& kick);
 

@@ -28,26 +28,30 @@ constexpr int group(int d) {
   return a * a + b * b + c * c;
 }
 
-/// f = shear d + along (d·e) e for the step e of direction D; each of e is −1, 0 or 1.
-template <int D, class T, class K>
-GEIST_INLINE void springs(const T (&d)[3], K shear, K along_e, T (&f)[3]) {
-  constexpr int e[3] = {directions[D][0], directions[D][1], directions[D][2]};
-  T along = constant<T>(0);
-  for (int c = 0; c < 3; ++c)
-    if (e[c]) along = e[c] > 0 ? along + d[c] : along - d[c];
-  along = along * along_e;
-  for (int c = 0; c < 3; ++c) f[c] = e[c] == 0 ? shear * d[c] : fma(shear, d[c], e[c] > 0 ? along : -along);
-}
-
-/// Force on i of a bond in direction D under a law, at relative displacement d = d_j − d_i, into f.
+/// Force on i of a bond in direction D under a law, at relative displacement d = d_j − d_i, into f: shear d +
+/// along (d·e) e for the step e; each of e is −1, 0 or 1.
 template <int D, class T, class Law>
 GEIST_INLINE void bond_force(const Law& law, const T (&d)[3], T (&f)[3]) {
-  springs<D>(d, law.template shear<D>(), law.template along<D>(), f);
+  constexpr int e[3] = {directions[D][0], directions[D][1], directions[D][2]};
+  constexpr int first = e[0] ? 0 : e[1] ? 1 : 2;
+  T along = e[first] > 0 ? d[first] : -d[first];
+  for (int c = first + 1; c < 3; ++c)
+    if (e[c]) along = e[c] > 0 ? along + d[c] : along - d[c];
+  along = along * law.template along<D>();
+  for (int c = 0; c < 3; ++c) {
+    const T pull = e[c] == 0 ? constant<T>(0) : e[c] > 0 ? along : -along;
+    if constexpr (!Law::template shears<D>)
+      f[c] = pull;
+    else
+      f[c] = e[c] == 0 ? law.template shear<D>() * d[c] : fma(law.template shear<D>(), d[c], pull);
+  }
 }
 
 /// Stiffnesses (force/length) of every bond of a published lattice.
 struct ElasticBond {
   static constexpr bool bends = false;
+  template <int D>
+  static constexpr bool shears = true;
   double k_n = 0, k_s = 0;
 
   static ElasticBond from(const Material& m, double r) {
@@ -70,6 +74,8 @@ struct ElasticBond {
 /// (2r)², and length 2r. Twisted, a square bar has 0.1406 of its edge⁴ (Saint-Venant).
 struct Bending {
   static constexpr bool bends = true;
+  template <int D>
+  static constexpr bool shears = group(D) == 1;  ///< diagonals of consistent lattices do not: k_s2 = 0
   double k_b = 0, k_t = 0;
   double bend = 0, twist = 0;  ///< by r, as the stencil adds them to moments
 
@@ -150,6 +156,33 @@ struct ClassBonds : Bending {
   template <int D>
   GEIST_INLINE T along() const {
     return gather<D>(&BondClass::along);
+  }
+};
+
+/// Bonds of eight sites that are of two classes, which are read once for all.
+struct TwoClassBonds : Bending {
+  const BondClass *first, *second;
+  PackInt is_second;  ///< −1 or 0
+
+  template <int D>
+  GEIST_INLINE Pack pick(const std::array<double, 18> BondClass::*member) const {
+    return select(is_second, broadcast((second->*member)[D]), broadcast((first->*member)[D]));
+  }
+  template <int D>
+  GEIST_INLINE Pack turn(int c) const {
+    return Bending::turn<D>(c) * pick<D>(&BondClass::bends);
+  }
+  template <int D>
+  GEIST_INLINE Pack column(int c) const {
+    return Bending::column<D>(c) * pick<D>(&BondClass::bends);
+  }
+  template <int D>
+  GEIST_INLINE Pack shear() const {
+    return pick<D>(&BondClass::shear);
+  }
+  template <int D>
+  GEIST_INLINE Pack along() const {
+    return pick<D>(&BondClass::along);
   }
 };
 

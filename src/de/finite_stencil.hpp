@@ -77,7 +77,11 @@ GEIST_INLINE void add_bonds(const FiniteView& x, const FiniteMotion<T>& i, std::
     relative_displacement<D>(i, j, r, d, p);
     const T q = half_pull<D>(law, d, p);
     for (int a = 0; a < 3; ++a) {
-      const T force = fma(q, p[a], law.template shear<D>() * d[a]);
+      T force;
+      if constexpr (Law::template shears<D>)
+        force = fma(q, p[a], law.template shear<D>() * d[a]);
+      else
+        force = q * p[a];
       const T g = bonds.template keep<D>(fma(r, force, -(q * d[a])));
       f[a] = f[a] + bonds.template keep<D>(force);
       for (int c = 0; c < 3; ++c)
@@ -120,7 +124,9 @@ GEIST_INLINE T bond_energy(const FiniteView& x, std::size_t s, std::ptrdiff_t of
   T d[3], p[3];
   relative_displacement<D>(i, j, r, d, p);
   const T dp = d[0] * p[0] + d[1] * p[1] + d[2] * p[2], q = half_pull<D>(law, d, p);
-  T twice = law.template shear<D>() * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) + q * dp;
+  T twice = q * dp;
+  if constexpr (Law::template shears<D>)
+    twice = law.template shear<D>() * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) + q * dp;
   if constexpr (Law::bends && group(D) == 1)
     for (int k = 0; k < 9; ++k)
       twice = twice + law.template column<D>(k / 3) * (j.H[k] - i.H[k]) * (j.H[k] - i.H[k]);

@@ -30,10 +30,10 @@ inline MotionView view(const Field<6>& f) { return {{f[0], f[1], f[2], f[3], f[4
 
 template <class T>
 GEIST_INLINE T read(const double* p) {
-  if constexpr (std::is_same_v<T, double>)
-    return *p;
-  else
+  if constexpr (std::is_same_v<T, Pack>)
     return load(p);
+  else
+    return *p;
 }
 
 /// a p + b q for a, b in {−1, 0, 1} known to the compiler.
@@ -85,7 +85,7 @@ struct SomeBonds {
   PackInt word;
   template <int D>
   GEIST_INLINE Pack keep(Pack f) const {
-    return (Pack)((PackInt)f & -((word >> D) & 1));
+    return where_set<D>(word, f);
   }
 };
 
@@ -103,16 +103,21 @@ template <class T, class Law, class Bonds>
 GEIST_INLINE void site_force(const MotionView& x, std::size_t s, const std::ptrdiff_t (&offset)[18],
                              const Law& law, double r, Bonds bonds, T (&f)[6]) {
   T i[6];
+  const double one = hidden_one;
   for (int c = 0; c < 6; ++c) i[c] = read<T>(x.c[c] + s), f[c] = constant<T>(0);
   const auto add_bond = [&]<int D>() __attribute__((always_inline)) {
     constexpr int ex = directions[D][0], ey = directions[D][1], ez = directions[D][2];
+    constexpr bool shears = Law::template shears<D>;  // else f is along e: no moment, nothing across
     T j[6], d[3], fc[3], arm[3];
     for (int c = 0; c < 6; ++c) j[c] = read<T>(x.c[c] + s + offset[D]);
     relative_displacement<D>(i, j, r, d);
     bond_force<D>(law, d, fc);
-    for (int c = 0; c < 3; ++c) fc[c] = bonds.template keep<D>(fc[c]);
+    for (int c = 0; c < 3; ++c) {
+      fc[c] = bonds.template keep<D>(fc[c]);
+      if (shears || directions[D][c] != 0) f[c] = add_by_fma(one, fc[c], f[c]);
+    }
     cross_step<ex, ey, ez>(fc, arm);  // fc × e; the moment is r e × fc
-    for (int c = 0; c < 3; ++c) f[c] = f[c] + fc[c], f[3 + c] = f[3 + c] - arm[c];
+    for (int c = 0; shears && c < 3; ++c) f[3 + c] = f[3 + c] - arm[c];
     if constexpr (Law::bends)  // by itself: the lambda is looked into once Law is known, D not yet
       for (int c = 3; group(D) == 1 && c < 6; ++c)
         f[c] = f[c] + bonds.template keep<D>(law.template turn<D>(c - 3) * (j[c] - i[c]));

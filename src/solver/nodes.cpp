@@ -1,9 +1,7 @@
 #include "solver/nodes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <span>
 
 #include "core/pack.hpp"
 #include "core/parallel.hpp"
@@ -52,23 +50,17 @@ de::KickSums kick_nodes(Mesh& mesh, const de::Kick& kick) {
   return sum<de::KickSums, block>((mesh.nodes() + lanes - 1) / lanes, kick_pack);
 }
 
-template <int N>
-void drift(Field<N>& u, const Field<N>& v, double dt, int components) {
+void drift(Mesh& mesh, double dt) {
   constexpr std::size_t block = 1024;
-  const std::size_t n = u.size();
-  struct Components {
-    double* u;
-    const double* v;
-  };
-  std::array<Components, N> all;
-  for (int c = 0; c < N; ++c) all[c] = {u[c], v[c]};
+  const std::size_t n = mesh.nodes();
+  double* const u[3] = {mesh.u[0], mesh.u[1], mesh.u[2]};
+  const double* const v[3] = {mesh.v[0], mesh.v[1], mesh.v[2]};
   const auto drift_block = [=](std::size_t b) {
-    for (const auto [x, y] : std::span(all).first(components))
-      for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i) x[i] = fma(dt, y[i], x[i]);
+    for (int c = 0; c < 3; ++c)
+      for (std::size_t i = b * block; i < std::min(n, (b + 1) * block); ++i)
+        u[c][i] = fma(dt, v[c][i], u[c][i]);
   };
   for_each((n + block - 1) / block, drift_block, 4);
 }
-template void drift<3>(Field<3>&, const Field<3>&, double, int);
-template void drift<6>(Field<6>&, const Field<6>&, double, int);
 
 }  // namespace geist

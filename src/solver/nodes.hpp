@@ -9,8 +9,7 @@ namespace geist {
 /// kick.per_mass is Δt / (1 + αΔt/2) here. The sums are weighted with the masses.
 de::KickSums kick_nodes(Mesh& mesh, const de::Kick& kick);
 
-/// Displacement of the step: u^{n+1} = u^n + Δt v^{n+1/2}, for the first components at n places.
-template <int N>
-void drift(Field<N>& u, const Field<N>& v, double dt, int components = N);
+/// Displacement of the step: u^{n+1} = u^n + Δt v^{n+1/2}.
+void drift(Mesh& mesh, double dt);
 
 }  // namespace geist

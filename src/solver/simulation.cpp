@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "de/rotation.hpp"
 #include "fe/elements.hpp"
 #include "solver/nodes.hpp"
 
@@ -23,13 +22,6 @@ de::Kick make_kick(double alpha, double dt, Vec3 gravity) {
 de::Kick for_lattice(de::Kick kick, const Lattice& lattice) {
   kick.per_mass /= lattice.mass, kick.per_inertia /= lattice.inertia;
   return kick;
-}
-
-/// Finite rotations do not add up like vectors: R ← exp(Δt ω×) R instead.
-void drift(Lattice& lattice, double dt) {
-  const bool finite = lattice.kinematics == Kinematics::finite;
-  drift(lattice.motion, lattice.velocity, dt, finite ? 3 : 6);
-  if (finite) de::turn(lattice, dt);
 }
 
 template <int N>
@@ -63,8 +55,9 @@ de::KickSums weighted(const de::KickSums& s, const Lattice& lattice) {
 void Simulation::step(bool observe) {
   {
     const auto timing = timers.time(Phase::drift);  // u^{n+1} = u^n + Δt v^{n+1/2}
-    drift(model.mesh.u, model.mesh.v, dt);
-    for (Lattice& lattice : model.lattices) drift(lattice, dt);
+    drift(model.mesh, dt);
+    if (!contacts.empty())  // they are found between the lattices' drift and their kick
+      for (Lattice& lattice : model.lattices) de::drift(lattice, dt);
     model.time = static_cast<double>(++model.step) * dt;
   }
   if (observe) keep_velocities();
@@ -116,19 +109,14 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   }
   {
     const auto timing = timers.time(Phase::lattice);
-    for (Lattice& lattice : model.lattices)  // (19)–(23), (3)–(5), (13); then (15)(17)(18), (24)(26)(27)
-      sums += weighted(de::bond_forces_and_kick(lattice, for_lattice(kick, lattice)), lattice);
+    const bool drifted = !arrived || !contacts.empty();
+    for (Lattice& lattice : model.lattices) {  // (19)–(23), (3)–(5), (13); then (15)(17)(18), (24)(26)(27)
+      const de::Kick own = for_lattice(kick, lattice);
+      sums +=
+          weighted(drifted ? de::bond_forces_and_kick(lattice, own) : de::advance(lattice, own, dt), lattice);
+    }
   }
-  {
-    const auto timing = timers.time(Phase::nodes);
-    reactions.add(model);                 // (14)
-    add_loads(loads, model, model.time);  // f^res of (1)(2)
-    contacts.add_to_nodes(model.mesh);
-  }
-  if (!subcycling.empty()) {
-    const auto timing = timers.time(Phase::elements);
-    subcycling.add_mean_forces(model.mesh, g, dt);
-  }
+  complete_node_forces(g);
   {
     const auto timing = timers.time(Phase::nodes);
     sums += kick_nodes(model.mesh, kick);  // (16)(25)
@@ -146,6 +134,18 @@ double Simulation::elements_forces() {
   if (subcycling.empty()) return fe::internal_forces(model.mesh);
   clear(model.mesh.f);
   return fe::add_internal_forces(model.mesh, subcycling.others(), 1);
+}
+
+void Simulation::complete_node_forces(Vec3 g) {
+  {
+    const auto timing = timers.time(Phase::nodes);
+    reactions.add(model);                 // (14)
+    add_loads(loads, model, model.time);  // f^res of (1)(2)
+    contacts.add_to_nodes(model.mesh);
+  }
+  if (subcycling.empty()) return;
+  const auto timing = timers.time(Phase::elements);
+  subcycling.add_mean_forces(model.mesh, g, dt);
 }
 
 /// Trapezoidal rule on Σ α m v². Hourglass control is reckoned with v^{n−½}, so that its work over the step

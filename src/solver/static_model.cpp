@@ -183,7 +183,7 @@ void StaticModel::show(const PlaceVector& p, double factor) {
   places_.put(present_, model_);
 }
 
-/// In as many turns as keep exp(ψ×) exact: de/rotation.cpp.
+/// In as many turns as keep exp(ψ×) exact: de/drift.hpp.
 void StaticModel::turn(Lattice& lattice, std::int32_t l, const PlaceVector& p, double factor) {
   for_each(
       places_.size(),

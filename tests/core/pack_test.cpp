@@ -44,6 +44,13 @@ TEST(Pack, LoadAndStoreKeepLanesInOrderAtAnyAddress) {
   for (int i = 0; i < 3 * lanes; ++i) EXPECT_EQ(memory[i], i >= 3 && i < 3 + lanes ? -1 : 100 + i);
 }
 
+TEST(Pack, LoadOfWordsWidensEach) {
+  std::uint32_t memory[2 * lanes];
+  for (std::uint32_t i = 0; i < 2 * lanes; ++i) memory[i] = 0xffffff00u + i;
+  const PackInt p = load(memory + 1);
+  for (int l = 0; l < lanes; ++l) EXPECT_EQ(p[l], 0xffffff01 + l);
+}
+
 TEST(Pack, ConstantFillsEveryLane) {
   EXPECT_EQ(constant<double>(2.5), 2.5);
   for (const double x : lanes_of(constant<Pack>(2.5))) EXPECT_EQ(x, 2.5);
@@ -53,7 +60,9 @@ TEST_F(RandomPacks, ArithmeticIsTheScalarsOfEachLane) {
   for (int repeat = 0; repeat < 100; ++repeat) {
     const Pack a = pack(), b = pack();
     const Pack sum = a + b, difference = a - b, product = a * b, negative = -a;
+    const Pack same_sum = add_by_fma(hidden_one, a, b);
     for (int l = 0; l < lanes; ++l) {
+      EXPECT_EQ(same_sum[l], a[l] + b[l]);
       EXPECT_EQ(sum[l], a[l] + b[l]);
       EXPECT_EQ(difference[l], a[l] - b[l]);
       EXPECT_EQ(product[l], a[l] * b[l]);

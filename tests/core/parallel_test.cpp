@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <random>
+#include <set>
 #include <thread>
 
 #include "core/vec.hpp"
@@ -37,6 +38,30 @@ TEST(Parallel, EveryIndexIsVisitedOnce) {
         for_each(
             n, [=](std::size_t i) { ++visit[i]; }, grain);
         EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<long>(n));
+      }
+  }
+}
+
+TEST(Parallel, SharesCoverEveryIndexOnceInOrderAndAreAlwaysTheSame) {
+  for (int n_threads = 1; n_threads <= 4; ++n_threads) {
+    set_threads(n_threads);
+    for (const std::size_t n : counts)
+      for (const std::size_t grain : {std::size_t{1}, std::size_t{600}}) {
+        std::vector<std::size_t> begins[2];
+        for (auto& begin_of : begins) {
+          begin_of.assign(n, n + 1);
+          for_each_share(
+              n,
+              [begin = begin_of.data()](Indices share) {
+                for (std::size_t i = share.begin; i < share.end; ++i) begin[i] = share.begin;
+              },
+              grain);
+        }
+        EXPECT_EQ(begins[0], begins[1]);
+        std::set<std::size_t> shares(begins[0].begin(), begins[0].end());
+        EXPECT_EQ(shares.size(), n == 0 ? 0 : n > grain ? std::min<std::size_t>(n, n_threads) : 1);
+        EXPECT_EQ(shares.count(n + 1), 0u);
+        EXPECT_TRUE(std::is_sorted(begins[0].begin(), begins[0].end()));
       }
   }
 }

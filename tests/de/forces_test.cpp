@@ -151,6 +151,26 @@ TEST(BondForces, AreTheScalarFormulasToTheBit) {
   }
 }
 
+/// Packs of one class, of two and of many; those of inner particles have the endless lattice's bonds.
+TEST(BondForces, OfConsistentLatticesAreTheScalarFormulasToTheBit) {
+  for (const bool full : {true, false})
+    for (const std::array<int, 3>& n : {std::array{17, 4, 5}, std::array{40, 3, 3}, std::array{5, 4, 3}}) {
+      Lattice lattice = small(full ? full_lattice(n) : random_lattice(n, 12), true);
+      move_at_random(lattice, 13);
+      const Loads6 packed = kernel_forces(lattice);
+      std::ptrdiff_t offset[18];
+      for (int d = 0; d < 18; ++d) offset[d] = lattice.grid.offset(d);
+      const Bending bending = Bending::from(lattice.material, lattice.radius());
+      for (std::size_t s = 0; s < lattice.grid.size(); ++s) {
+        if (!lattice.word[s] || lattice.class_of[s] == 0) continue;
+        const ClassBonds<double> law(bending, lattice.classes.data(), &lattice.class_of[s]);
+        double f[6];
+        site_force(view(lattice.motion), s, offset, law, lattice.radius(), SiteBonds{lattice.word[s]}, f);
+        for (int c = 0; c < 6; ++c) EXPECT_EQ(c < 3 ? packed.force[s][c] : packed.moment[s][c - 3], f[c]);
+      }
+    }
+}
+
 TEST(BondForces, HaveTheSameBitsForAnyNumberOfThreads) {
   std::vector<std::vector<std::uint64_t>> bits;
   for (int n_threads = 1; n_threads <= 4; ++n_threads) {

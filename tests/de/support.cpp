@@ -86,11 +86,21 @@ Mat3 rotation_by(Vec3 theta) {
   return R;
 }
 
-Lattice finite(Lattice lattice, bool consistent) {
+Lattice small(Lattice lattice, bool consistent) {
   if (consistent) assemble(lattice);
-  lattice.kinematics = Kinematics::finite;
   finish(lattice);
   return lattice;
+}
+
+Lattice dilating(const std::array<int, 3>& n) {
+  Lattice lattice = full_lattice(n);
+  lattice.material.poisson = 0.35;
+  return small(std::move(lattice), true);
+}
+
+Lattice finite(Lattice lattice, bool consistent) {
+  lattice.kinematics = Kinematics::finite;
+  return small(std::move(lattice), consistent);
 }
 
 void set_rotation(Lattice& lattice, std::size_t s, const Mat3& R) {

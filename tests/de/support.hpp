@@ -34,6 +34,11 @@ void push_at_random(Lattice& lattice, int seed);
 Mat3 rotation_by(Vec3 theta);
 Mat3 operator*(const Mat3& a, const Mat3& b);
 
+/// The same lattice, consistent or published, at rest.
+Lattice small(Lattice lattice, bool consistent);
+/// A full consistent lattice with ν > ¼.
+Lattice dilating(const std::array<int, 3>& n);
+
 /// The same lattice with finite rotations, consistent or published, at rest.
 Lattice finite(Lattice lattice, bool consistent);
 void set_rotation(Lattice& lattice, std::size_t s, const Mat3& R);
