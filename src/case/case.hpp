@@ -127,6 +127,7 @@ struct OutputSpec {
       history_every;              ///< in time; absent: fields only at the end, history 1000 rows
   std::vector<double> fields_at;  ///< in time, beside the above
   bool compress = true;
+  std::string precision = "double";  ///< of the state in field files: "double" or "single"
 };
 
 struct Case {
