@@ -174,13 +174,19 @@ TEST(Fields, FullDiskKeepsWhatWasThere) {
   Model& model = sim.model;
   FieldWriter writer(scratch.path, units);
   writer.write(sim);
+  writer.finish();
   const std::string before = read_text(scratch / "fields.pvd");
   model.step = 121;
   {
     const FullDisk full(64);
+    writer.write(sim);
+    EXPECT_EQ(error_of([&] { writer.finish(); }),
+              "cannot write " + (scratch / "fields/hexahedra_000121.vtu").string() + ": File too large");
+    writer.write(sim);
     EXPECT_EQ(error_of([&] { writer.write(sim); }),
               "cannot write " + (scratch / "fields/hexahedra_000121.vtu").string() + ": File too large");
   }
+  writer.finish();
   EXPECT_EQ(read_text(scratch / "fields.pvd"), before);
   EXPECT_FALSE(exists(scratch / "fields/hexahedra_000121.vtu"));
 }
