@@ -236,7 +236,8 @@ std::optional<std::vector<Three>> by_conjugate_gradients(const Equations& A, std
 }
 
 /// The same solution, q = D⁻¹ Aᵀ y with A D⁻¹ Aᵀ y = R and D the diagonal of Aᵀ A, by a Cholesky
-/// factorisation. What no pattern stirs is held by a little on the diagonal; a few sweeps take its effect out.
+/// factorisation. What no pattern stirs is held by a little on the diagonal; a few sweeps take its effect
+/// out.
 std::vector<Three> by_factorisation(const Equations& A, const std::vector<Three>& right) {
   constexpr double little = 1e-9;
   constexpr int most_sweeps = 20;
@@ -262,8 +263,8 @@ std::vector<Three> by_factorisation(const Equations& A, const std::vector<Three>
   return x;
 }
 
-/// Conjugate gradients take some tens of steps around a small interface and thousands around a long one, which
-/// resists like a thin plate.
+/// Conjugate gradients take some tens of steps around a small interface and thousands around a long one,
+/// which resists like a thin plate.
 std::vector<Three> least_squares(const Equations& A, const std::vector<Three>& right) {
   if (auto x = by_conjugate_gradients(A, right)) return std::move(*x);
   return by_factorisation(A, right);

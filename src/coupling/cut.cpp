@@ -63,7 +63,8 @@ struct Part {
 };
 
 /// The parts of a ghost's octants, octant by octant, element by element.
-std::vector<Part> parts_of(const Lattice& lattice, const Ghost& ghost, const Mesh& mesh, const Locator& locator) {
+std::vector<Part> parts_of(const Lattice& lattice, const Ghost& ghost, const Mesh& mesh,
+                           const Locator& locator) {
   std::vector<Part> parts;
   visit_octants(lattice, ghost, [&](const Octant& octant) {
     bool found_whole = false;
@@ -114,16 +115,18 @@ void take_octants(const Model& model, const Locator& locator, Cuts& cuts) {
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     for (const std::int32_t node : mesh.elements[e])
       element_of_node[static_cast<std::size_t>(node)] = static_cast<std::int32_t>(e);
-  constexpr std::size_t at_a_time = 1024;  // ghosts: their points are found by all threads, and taken in order
+  constexpr std::size_t at_a_time =
+      1024;  // ghosts: their points are found by all threads, and taken in order
   std::vector<std::vector<Part>> parts(at_a_time);
   for (const Lattice& lattice : model.lattices)
     for (std::size_t first = 0; first < lattice.ghosts.size(); first += at_a_time) {
       const std::size_t n = std::min(at_a_time, lattice.ghosts.size() - first);
-      for_each(n, [&](std::size_t g) { parts[g] = parts_of(lattice, lattice.ghosts[first + g], mesh, locator); });
+      for_each(
+          n, [&](std::size_t g) { parts[g] = parts_of(lattice, lattice.ghosts[first + g], mesh, locator); });
       for (std::size_t g = 0; g < n; ++g)
         for (const Part& part : parts[g])
-          give(take(part, density(mesh, part.element), cuts.of(part.element)), lattice.ghosts[first + g], mesh,
-               cuts, element_of_node);
+          give(take(part, density(mesh, part.element), cuts.of(part.element)), lattice.ghosts[first + g],
+               mesh, cuts, element_of_node);
     }
 }
 

@@ -64,7 +64,8 @@ ShapeKey shape_key(const hex8::Corners& x, std::int64_t cut) {
 
 std::uint64_t hash_of(const ShapeKey& key) {
   std::uint64_t h = 0;
-  for (const std::int64_t part : key) h = (h ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15ull, h ^= h >> 29;
+  for (const std::int64_t part : key)
+    h = (h ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15ull, h ^= h >> 29;
   return h;
 }
 
@@ -198,10 +199,12 @@ struct Eight {
 template <class Formulation>
 std::array<double, lanes> bounds(const Eight& e, const Formulation& formulation) {
   const Corners<Pack> rest{};
-  const Pack k = gershgorin(e.mass, [&](const Corners<Pack>& u, Corners<Pack>& f) { formulation.forces(e.X, u, rest, f); });
+  const Pack k = gershgorin(
+      e.mass, [&](const Corners<Pack>& u, Corners<Pack>& f) { formulation.forces(e.X, u, rest, f); });
   Pack c{};
   if constexpr (Formulation::uses_velocity)
-    c = gershgorin(e.mass, [&](const Corners<Pack>& v, Corners<Pack>& f) { formulation.forces(e.X, rest, v, f); });
+    c = gershgorin(e.mass,
+                   [&](const Corners<Pack>& v, Corners<Pack>& f) { formulation.forces(e.X, rest, v, f); });
   std::array<double, lanes> y;
   for (int l = 0; l < lanes; ++l) y[l] = start(k[l], c[l]);
   return y;
@@ -212,7 +215,8 @@ template <class Formulation>
 std::array<double, lanes> bounds(const Mesh& mesh, const std::array<std::size_t, lanes>& elements,
                                  const Formulation& formulation) {
   const auto is_cut = [&mesh](std::size_t e) { return cut_of(mesh, e) != nullptr; };
-  if (std::none_of(elements.begin(), elements.end(), is_cut)) return bounds(Eight(mesh, elements), formulation);
+  if (std::none_of(elements.begin(), elements.end(), is_cut))
+    return bounds(Eight(mesh, elements), formulation);
   std::array<double, lanes> y;
   for (int l = 0; l < lanes; ++l) {
     std::array<std::size_t, lanes> same;
@@ -249,8 +253,7 @@ std::vector<double> shape_frequencies(const Mesh& mesh, const Shapes& shapes, Fo
   if (n > most_eigenproblems) {
     for_each((n + lanes - 1) / lanes, [=, &mesh, &shapes, out = omega.data()](std::size_t pack) {
       std::array<std::size_t, lanes> elements;
-      for (std::size_t l = 0; l < lanes; ++l)
-        elements[l] = shapes.example[std::min(pack * lanes + l, n - 1)];
+      for (std::size_t l = 0; l < lanes; ++l) elements[l] = shapes.example[std::min(pack * lanes + l, n - 1)];
       const auto y = bounds(mesh, elements, formulation);
       std::copy_n(y.begin(), std::min<std::size_t>(lanes, n - pack * lanes), out + pack * lanes);
     });

@@ -48,7 +48,6 @@ Corners corners(const Mesh& mesh, std::size_t e) {
   return x;
 }
 
-
 Vec3 map(const Corners& x, Vec3 xi) {
   const auto N = shape(xi);
   Vec3 p;

@@ -113,7 +113,8 @@ GEIST_INLINE T determinant(const T (&x)[8][3], const GaussPoint& at) {
   for (std::size_t a = 1; a < 8; ++a)
     for (int i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) J[i][j] += x[a][i] * at.gradient[a][j];
-  return J[0][0] * (J[1][1] * J[2][2] - J[1][2] * J[2][1]) + J[0][1] * (J[1][2] * J[2][0] - J[1][0] * J[2][2]) +
+  return J[0][0] * (J[1][1] * J[2][2] - J[1][2] * J[2][1]) +
+         J[0][1] * (J[1][2] * J[2][0] - J[1][0] * J[2][2]) +
          J[0][2] * (J[1][0] * J[2][1] - J[1][1] * J[2][0]);
 }
 

@@ -63,7 +63,8 @@ Locator::Locator(const Mesh& mesh) : mesh_(mesh), box_(mesh.elements.size()) {
 }
 
 void Locator::sort(std::size_t first, std::size_t count) {
-  constexpr double cells_an_element = 4;  // at most: bodies that leave much of their box empty take wider cells
+  constexpr double cells_an_element =
+      4;  // at most: bodies that leave much of their box empty take wider cells
   Cells& cells = cells_.emplace_back();
   cells.around = nowhere();
   double sum = 0;
@@ -73,10 +74,12 @@ void Locator::sort(std::size_t first, std::size_t count) {
     widen(cells.around, box_[e]);
   }
   cells.width = sum / static_cast<double>(count);
-  const Vec3 half{cells.width / 2, cells.width / 2, cells.width / 2};  // elements of a grid reach into 8 cells
+  const Vec3 half{cells.width / 2, cells.width / 2,
+                  cells.width / 2};  // elements of a grid reach into 8 cells
   cells.around.low -= half, cells.around.high += half;
   const Vec3 edge = cells.around.high - cells.around.low;
-  const double most = cells_an_element * static_cast<double>(count) + 64, cell = cells.width * cells.width * cells.width;
+  const double most = cells_an_element * static_cast<double>(count) + 64,
+               cell = cells.width * cells.width * cells.width;
   const double crowd = edge.x * edge.y * edge.z / (cell * most);
   if (crowd > 1) cells.width *= std::cbrt(crowd);
   for (int c = 0; c < 3; ++c) cells.n[c] = static_cast<int>(edge[c] / cells.width) + 1;

@@ -49,7 +49,9 @@ Values stresses(const Model& model) {
 Values von_mises_stresses(const Model& model) {
   const auto of_elements = fe::centre_stresses(model.mesh);
   Values values(of_elements.size());
-  const auto reduce = [&of_elements, to = values.data()](std::size_t e) { to[e] = von_mises(of_elements[e]); };
+  const auto reduce = [&of_elements, to = values.data()](std::size_t e) {
+    to[e] = von_mises(of_elements[e]);
+  };
   for_each(of_elements.size(), reduce, worth_threads);
   return values;
 }
@@ -140,16 +142,15 @@ Values radii(const Model& model) {
 Values strain_energies(const Model& model) {
   std::vector<Values> energies;
   for (const Lattice& lattice : model.lattices) energies.push_back(de::site_energies(lattice));
-  return site_values(
-      model, site::particle, 1,
-      [&](const Lattice&, std::size_t l, std::size_t s, double* to) { *to = energies[l][s]; });
+  return site_values(model, site::particle, 1,
+                     [&](const Lattice&, std::size_t l, std::size_t s, double* to) { *to = energies[l][s]; });
 }
 
 Values intact_bonds(const Model& model) {
-  return site_values(
-      model, site::particle, 1, [](const Lattice& lattice, std::size_t, std::size_t s, double* to) {
-        *to = std::popcount(lattice.word[s] & site::bonds);
-      });
+  return site_values(model, site::particle, 1,
+                     [](const Lattice& lattice, std::size_t, std::size_t s, double* to) {
+                       *to = std::popcount(lattice.word[s] & site::bonds);
+                     });
 }
 
 template <std::uint32_t flag>
@@ -188,13 +189,14 @@ Values particle_contact_forces(const Simulation& sim) {
   const auto before = [](const TouchedPlace& t, std::pair<std::int32_t, std::size_t> site) {
     return std::pair(t.place.lattice, t.place.index) < site;
   };
-  return site_values(
-      sim.model, site::particle, 3, [&](const Lattice&, std::size_t l, std::size_t s, double* to) {
-        if (touched.empty()) return;
-        const std::pair site(static_cast<std::int32_t>(l), s);
-        const auto it = std::lower_bound(touched.begin(), touched.end(), site, before);
-        if (it != touched.end() && it->place.lattice == site.first && it->place.index == s) put(it->force, to);
-      });
+  return site_values(sim.model, site::particle, 3,
+                     [&](const Lattice&, std::size_t l, std::size_t s, double* to) {
+                       if (touched.empty()) return;
+                       const std::pair site(static_cast<std::int32_t>(l), s);
+                       const auto it = std::lower_bound(touched.begin(), touched.end(), site, before);
+                       if (it != touched.end() && it->place.lattice == site.first && it->place.index == s)
+                         put(it->force, to);
+                     });
 }
 
 using enum Place;

@@ -31,7 +31,8 @@ template <class T>
 std::vector<T> convert(const std::vector<double>& values) {
   std::vector<T> converted(values.size());
   for_each(
-      values.size(), [from = values.data(), to = converted.data()](std::size_t i) { to[i] = static_cast<T>(from[i]); },
+      values.size(),
+      [from = values.data(), to = converted.data()](std::size_t i) { to[i] = static_cast<T>(from[i]); },
       worth_threads);
   return converted;
 }

@@ -35,11 +35,11 @@ EncodedArray described(DataArray array) {
                           array.name, array.components);
   for (std::size_t c = 0; c < array.component_names.size(); ++c)
     a.opening += fmt::format(" ComponentName{}=\"{}\"", c, array.component_names[c]);
-  a.ending = array.unit.empty()
-                 ? "/>\n"
-                 : fmt::format("><InformationKey name=\"UNITS_LABEL\" "
-                               "location=\"vtkDataArray\">{}</InformationKey></DataArray>\n",
-                               array.unit);
+  a.ending = array.unit.empty() ? "/>\n"
+                                : fmt::format(
+                                      "><InformationKey name=\"UNITS_LABEL\" "
+                                      "location=\"vtkDataArray\">{}</InformationKey></DataArray>\n",
+                                      array.unit);
   a.values = std::move(array);
   return a;
 }

@@ -90,7 +90,8 @@ struct EncodedGeometry {
 class GridEncoder {
  public:
   /// Points and cells of the grid do not count if their `geometry` is there already, from another grid.
-  GridEncoder(UnstructuredGrid grid, bool compress, std::shared_ptr<const EncodedGeometry> geometry = nullptr);
+  GridEncoder(UnstructuredGrid grid, bool compress,
+              std::shared_ptr<const EncodedGeometry> geometry = nullptr);
   /// Encode as long as there is something to begin with. Several threads may call this at once.
   void work();
   /// Finish and write the file, whole or not at all. Throws std::runtime_error naming the file and the

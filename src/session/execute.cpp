@@ -305,7 +305,8 @@ int execute(const Case& input, const ExecuteOptions& options) {
   const double begin = output::Progress::wall_clock();
   Recorder recorder(input, options, built.probes);
   const Outcome outcome = watched_run(built.simulation, plan, recorder);
-  auto summary = summarise(input, options, built, outcome, recorder.seconds(), output::Progress::wall_clock() - begin);
+  auto summary =
+      summarise(input, options, built, outcome, recorder.seconds(), output::Progress::wall_clock() - begin);
   summary.warnings = recorder.warnings();
   output::write_summary(options.directory / output::summary_name, summary);
   if (!outcome.message.empty())

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <random>
+
 #include "output/support.hpp"
 
 namespace geist::output {
@@ -83,6 +86,28 @@ TEST(Vtu, CompressionSavesSpace) {
   GridEncoder(points_with_values(70001), false).write(scratch / "raw.vtu");
   GridEncoder(points_with_values(70001), true).write(scratch / "compressed.vtu");
   EXPECT_LT(2 * file_size(scratch / "compressed.vtu"), file_size(scratch / "raw.vtu"));
+}
+
+TEST(Vtu, NoiseIsStoredAsItIs) {
+  const Scratch scratch;
+  UnstructuredGrid grid = points_with_values(70001);
+  std::mt19937_64 random(5);
+  auto& values = std::get<std::vector<double>>(grid.point_data[0].values);
+  for (double& v : values) v = std::bit_cast<double>((random() >> 12) | 0x3FF0000000000000ull);  // in [1, 2)
+  GridEncoder(grid, true).write(scratch / "noise.vtu");
+  EXPECT_EQ(read_vtu(scratch / "noise.vtu").arrays["PointData/pair"].values, values);
+  const std::string some(reinterpret_cast<const char*>(values.data()), 1000 * sizeof(double));
+  EXPECT_NE(testing::read_text(scratch / "noise.vtu").find(some), std::string::npos);
+}
+
+TEST(Vtu, GridsShareTheirGeometry) {
+  const Scratch scratch;
+  GridEncoder first(points_with_values(1000), true);
+  const auto geometry = first.write(scratch / "a.vtu");
+  UnstructuredGrid values = points_with_values(1000);
+  values.points.clear(), values.connectivity.clear();
+  GridEncoder(std::move(values), true, geometry).write(scratch / "b.vtu");
+  EXPECT_EQ(testing::read_text(scratch / "a.vtu"), testing::read_text(scratch / "b.vtu"));
 }
 
 TEST(Vtu, UnwritableDirectoryIsNamed) {
