@@ -5,8 +5,8 @@
 // their compressed sizes, as UInt64. Source: "VTK file formats", VTK user's guide, section "XML file
 // formats".
 //
-// Numbers that look like noise are stored in zlib's frame as they are: zlib takes five times as long for them
-// as for others and saves next to nothing.
+// Blocks whose beginning zlib makes less than a tenth smaller are stored in zlib's frame as they are: such
+// numbers take it longest.
 #pragma once
 #include <atomic>
 #include <cstddef>
