@@ -125,9 +125,10 @@ struct AnalysisSpec {
 
 struct OutputSpec {
   std::optional<double> fields_every,
-      history_every;              ///< in time; absent: fields only at the end, history 1000 rows
+      history_every;              ///< in time; absent: fields at the ends only, 1000 rows or less
   std::vector<double> fields_at;  ///< in time, beside the above
   bool compress = true;
+  std::string precision = "double";  ///< of the state in field files: "double" or "single"
 };
 
 struct Case {

@@ -186,6 +186,7 @@ OutputSpec output_of(const View& view) {
   }
   if (const auto history = view.table("history")) spec.history_every = history->get<double>("every");
   spec.compress = view.get<bool>("compress").value();
+  spec.precision = view.get<std::string>("precision").value();
   return spec;
 }
 

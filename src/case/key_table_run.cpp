@@ -247,8 +247,14 @@ Table output_table() {
       "What is written. Fields are for ParaView; the history has the probes, the energies and the residual.",
       {within(Type::table, "fields", "fields", "When fields are written; without it, at the end only."),
        within(Type::table, "history", "every",
-              "How often a row of the history is written; without it, about 1000 rows."),
-       boolean("compress", "Whether field files are compressed.").otherwise("true")}};
+              "How often a row of the history is written; without it, about 1000 rows of a dynamic run, but "
+              "at most one in 20 steps."),
+       boolean("compress", "Whether field files are compressed.").otherwise("true"),
+       choice("precision", {"double", "single"},
+              "Of displacements and rotations in field files: every digit, which strains made from them need "
+              "where a body has moved far; or seven, which halves the files. What is derived from them "
+              "(velocities, stresses, energies) has seven anyway.")
+           .otherwise("\"double\"")}};
 }
 
 Table fields_table() {

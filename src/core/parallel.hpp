@@ -54,6 +54,14 @@ inline void set_threads(int n) {
   }
 }
 
+/// Let the calling thread run on any allowed processor, whatever the thread that made it is bound to.
+inline void run_anywhere() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  for (const int processor : allowed_processors()) CPU_SET(processor, &set);
+  pthread_setaffinity_np(pthread_self(), sizeof set, &set);
+}
+
 /// f(i) for i in [0, n), in contiguous shares. Fewer than `grain` iterations are not worth waking the
 /// threads.
 template <class F>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/parallel.hpp"
 #include "coupling/balance.hpp"
 #include "coupling/faces.hpp"
 #include "coupling/octants.hpp"
@@ -48,14 +49,45 @@ std::vector<WeightedPoint> points_in(const Box& box, const hex8::Corners& x, boo
   return part.quadrature();
 }
 
-/// Take these points out of an element. Returns their mass.
-double take(const std::vector<WeightedPoint>& points, const hex8::Corners& x, double rho, HexCut& cut) {
+/// A point of an octant in an element.
+struct PointInside {
+  double weight;
+  std::array<double, 8> N;
+  std::array<Vec3, 8> gradient;
+};
+
+/// The points of an octant in an element.
+struct Part {
+  std::int32_t element;
+  std::vector<PointInside> points = {};
+};
+
+/// The parts of a ghost's octants, octant by octant, element by element.
+std::vector<Part> parts_of(const Lattice& lattice, const Ghost& ghost, const Mesh& mesh,
+                           const Locator& locator) {
+  std::vector<Part> parts;
+  visit_octants(lattice, ghost, [&](const Octant& octant) {
+    bool found_whole = false;
+    for (const std::int32_t e : locator.near(octant.box)) {
+      const hex8::Corners x = hex8::corners(mesh, static_cast<std::size_t>(e));
+      const auto points = points_in(octant.box, x, found_whole);
+      if (points.empty()) continue;
+      parts.push_back({e});
+      Part& part = parts.back();
+      for (const auto& [p, weight] : points) {
+        const auto [xi, converged] = hex8::inverse_map(x, p);
+        if (converged) part.points.push_back({weight, hex8::shape(xi), hex8::position_gradient(x, xi)});
+      }
+      if (found_whole) break;
+    }
+  });
+  return parts;
+}
+
+/// Take a part out of its element. Returns its mass.
+double take(const Part& part, double rho, HexCut& cut) {
   double mass = 0;
-  for (const auto& [p, weight] : points) {
-    const auto [xi, converged] = hex8::inverse_map(x, p);
-    if (!converged) continue;
-    const auto N = hex8::shape(xi);
-    const auto gradient = hex8::position_gradient(x, xi);
+  for (const auto& [weight, N, gradient] : part.points) {
     cut.volume -= weight, mass += rho * weight;
     for (int a = 0; a < 8; ++a) cut.gradient[a] -= weight * gradient[a], cut.mass[a] -= rho * weight * N[a];
   }
@@ -83,17 +115,19 @@ void take_octants(const Model& model, const Locator& locator, Cuts& cuts) {
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     for (const std::int32_t node : mesh.elements[e])
       element_of_node[static_cast<std::size_t>(node)] = static_cast<std::int32_t>(e);
+  constexpr std::size_t at_a_time =
+      1024;  // ghosts: their points are found by all threads, and taken in order
+  std::vector<std::vector<Part>> parts(at_a_time);
   for (const Lattice& lattice : model.lattices)
-    visit_octants(lattice, [&](const Ghost& ghost, const Octant& octant) {
-      bool found_whole = false;
-      for (const std::int32_t e : locator.near(octant.box)) {
-        const hex8::Corners x = hex8::corners(mesh, static_cast<std::size_t>(e));
-        const auto points = points_in(octant.box, x, found_whole);
-        if (points.empty()) continue;
-        give(take(points, x, density(mesh, e), cuts.of(e)), ghost, mesh, cuts, element_of_node);
-        if (found_whole) break;
-      }
-    });
+    for (std::size_t first = 0; first < lattice.ghosts.size(); first += at_a_time) {
+      const std::size_t n = std::min(at_a_time, lattice.ghosts.size() - first);
+      for_each(
+          n, [&](std::size_t g) { parts[g] = parts_of(lattice, lattice.ghosts[first + g], mesh, locator); });
+      for (std::size_t g = 0; g < n; ++g)
+        for (const Part& part : parts[g])
+          give(take(part, density(mesh, part.element), cuts.of(part.element)), lattice.ghosts[first + g],
+               mesh, cuts, element_of_node);
+    }
 }
 
 }  // namespace

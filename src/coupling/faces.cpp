@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.hpp"
 #include "coupling/octants.hpp"
 
 namespace geist::coupling {
@@ -99,13 +100,15 @@ std::map<std::int32_t, Vec3> spread_ghosts(Model& model, const Locator& locator)
   for (Lattice& lattice : model.lattices) {
     const double r = lattice.radius();
     std::vector<Face> faces(lattice.ghosts.size());
-    visit_octants(lattice, [&](const Ghost& ghost, const Octant& octant) {
-      Face& face = faces[static_cast<std::size_t>(&ghost - lattice.ghosts.data())];
-      for (Square& square : near_squares(lattice, octant)) {
-        face.shares.push_back(integrate(square, r, model.mesh, locator));
-        face.squares.push_back(std::move(square));
-      }
-    });
+    const auto integrate_face = [&](std::size_t g) {
+      visit_octants(lattice, lattice.ghosts[g], [&](const Octant& octant) {
+        for (Square& square : near_squares(lattice, octant)) {
+          faces[g].shares.push_back(integrate(square, r, model.mesh, locator));
+          faces[g].squares.push_back(std::move(square));
+        }
+      });
+    };
+    for_each(faces.size(), integrate_face);
     for (std::size_t g = 0; g < faces.size(); ++g) {
       Ghost& ghost = lattice.ghosts[g];
       const auto& [squares, shares] = faces[g];

@@ -138,12 +138,17 @@ std::optional<Clash> around_particle(const Lattice& lattice, std::size_t s, cons
 /// others overlaps them if its own hexahedron does, just inside of the node; otherwise it touches them.
 std::optional<Clash> between_hexahedra(const Model& model, const Locator& locator, const LoosePairs& loose) {
   const Mesh& mesh = model.mesh;
+  std::vector<bool> stands_alone(mesh.nodes(), false);
   for (const Facet& facet : exterior_facets(mesh))
     for (const std::int32_t node : facet.node) {
+      if (stands_alone[node]) continue;
       const Vec3 p = mesh.points[node];
       auto found = locator.find(p, -1e-6, node);
       const auto touching = found ? found : locator.find(p, 1e-6, node);
-      if (!touching) continue;
+      if (!touching) {
+        stands_alone[node] = true;
+        continue;
+      }
       const std::string a = name_of_region(mesh, facet.element), b = name_of_region(mesh, touching->element);
       const Vec3 centre = hex8::map(hex8::corners(mesh, static_cast<std::size_t>(facet.element)), {0, 0, 0});
       if (!found) found = locator.find(p + 1e-5 * (centre - p), 1e-7, node);
@@ -170,8 +175,8 @@ std::optional<Clash> centres_elsewhere(const Model& model, const Locator& locato
     const std::string& name = name_of_region(model.mesh, element);
     for (const Lattice& lattice : model.lattices)
       if (in_cell(lattice, p)) return clash(lattice.name, name);
-    const auto found = locator.find(p);  // the first one there
-    if (found && found->element != element) return clash(name, name_of_region(model.mesh, found->element));
+    const auto found = locator.find_before(element, p);
+    if (found) return clash(name, name_of_region(model.mesh, found->element));
   }
   return std::nullopt;
 }

@@ -29,19 +29,18 @@ inline bool is_the_lattices(const Lattice& lattice, std::size_t site, const std:
   return false;
 }
 
-/// Call visit(ghost, octant) for all of a lattice's octants, in order of ghosts.
-template <class AnyLattice, class Visit>
-void visit_octants(AnyLattice& lattice, Visit visit) {
+/// Call visit(octant) for the octants of a ghost that are the lattice's.
+template <class Visit>
+void visit_octants(const Lattice& lattice, const Ghost& ghost, Visit visit) {
   const double r = lattice.radius();
-  for (auto& ghost : lattice.ghosts)
-    for (int octant = 0; octant < 8; ++octant) {
-      const std::array<int, 3> sign{octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1};
-      if (!is_the_lattices(lattice, ghost.site, sign)) continue;
-      const Vec3 x_g = lattice.grid.centre(ghost.site);
-      Box box = nowhere();
-      widen(box, x_g), widen(box, x_g + r * Vec3{1.0 * sign[0], 1.0 * sign[1], 1.0 * sign[2]});
-      visit(ghost, Octant{&ghost, x_g, sign, box});
-    }
+  const Vec3 x_g = lattice.grid.centre(ghost.site);
+  for (int octant = 0; octant < 8; ++octant) {
+    const std::array<int, 3> sign{octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1};
+    if (!is_the_lattices(lattice, ghost.site, sign)) continue;
+    Box box = nowhere();
+    widen(box, x_g), widen(box, x_g + r * Vec3{1.0 * sign[0], 1.0 * sign[1], 1.0 * sign[2]});
+    visit(Octant{&ghost, x_g, sign, box});
+  }
 }
 
 /// The half-spaces of an element's faces; a warped face is taken as the plane through its centre.

@@ -126,18 +126,6 @@ std::array<double, 6> centre_stress(Kinematics kinematics, const Corners<double>
   return {s[0][0], s[1][1], s[2][2], s[0][1], s[1][2], s[0][2]};
 }
 
-/// Density of the region that element e belongs to.
-double density(const Mesh& mesh, std::size_t e) {
-  return mesh.regions[region_of(mesh, static_cast<std::int32_t>(e))].material.density;
-}
-
-std::array<double, 8> masses(const Mesh& mesh, std::size_t e, double rho) {
-  if (const HexCut* cut = cut_of(mesh, e)) return cut->mass;
-  auto m = hex8::corner_volumes(hex8::corners(mesh, e));
-  for (double& a : m) a *= rho;
-  return m;
-}
-
 BlockCut whole_block(const Mesh& mesh, const HexBlock& block) {
   Corners<Pack> room;
   const MeanGradient<Pack> m = mean_gradient(to_modes(NodeField(mesh, mesh.X).at(block, room).all()));
@@ -207,7 +195,11 @@ std::optional<std::size_t> first_inverted(const Mesh& mesh) {
 }
 
 std::array<double, 8> corner_masses(const Mesh& mesh, std::size_t element) {
-  return masses(mesh, element, density(mesh, element));
+  if (const HexCut* cut = cut_of(mesh, element)) return cut->mass;
+  auto mass = hex8::corner_volumes(hex8::corners(mesh, element));
+  const HexRegion& region = mesh.regions[region_of(mesh, static_cast<std::int32_t>(element))];
+  for (double& m : mass) m *= region.material.density;
+  return mass;
 }
 
 void set_cuts(Mesh& mesh, std::vector<HexCut> cuts) {
@@ -229,13 +221,38 @@ void set_cuts(Mesh& mesh, std::vector<HexCut> cuts) {
   }
 }
 
+std::array<std::array<double, 8>, lanes> corner_masses_of_eight(const Mesh& mesh, const HexRegion& region,
+                                                                std::size_t first) {
+  Pack x[8][3], volumes[8];
+  for (int l = 0; l < lanes; ++l) {
+    const auto& nodes = mesh.elements[std::min(first + l, region.first + region.count - 1)];
+    for (int a = 0; a < 8; ++a)
+      for (int i = 0; i < 3; ++i) x[a][i][l] = mesh.points[nodes[a]][i];
+  }
+  hex8::corner_volumes(x, volumes);
+  std::array<std::array<double, 8>, lanes> mass;
+  for (int l = 0; l < lanes; ++l) {
+    for (int a = 0; a < 8; ++a) mass[l][a] = volumes[a][l] * region.material.density;
+    if (const HexCut* cut = cut_of(mesh, first + l)) mass[l] = cut->mass;
+  }
+  return mass;
+}
+
+std::vector<double> region_masses(const Mesh& mesh) {
+  std::vector<double> total(mesh.regions.size(), 0.0);
+  std::size_t region = 0;
+  visit_corner_masses(mesh, [&](std::size_t e, const std::array<double, 8>& mass) {
+    while (e >= mesh.regions[region].first + mesh.regions[region].count) ++region;
+    total[region] = std::accumulate(mass.begin(), mass.end(), total[region]);
+  });
+  return total;
+}
+
 void lump_masses(Mesh& mesh) {
   std::fill(mesh.mass.begin(), mesh.mass.end(), 0.0);
-  for (const HexRegion& region : mesh.regions)
-    for (std::size_t e = region.first; e < region.first + region.count; ++e) {
-      const auto m = masses(mesh, e, region.material.density);
-      for (int a = 0; a < 8; ++a) mesh.mass[mesh.elements[e][a]] += m[a];
-    }
+  visit_corner_masses(mesh, [&mesh](std::size_t e, const std::array<double, 8>& mass) {
+    for (int a = 0; a < 8; ++a) mesh.mass[mesh.elements[e][a]] += mass[a];
+  });
 }
 
 }  // namespace geist::fe

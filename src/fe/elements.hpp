@@ -1,5 +1,6 @@
 // All hexahedra of a mesh: internal forces, energies, stresses, masses, and frequencies for the time step.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -36,6 +37,25 @@ void set_cuts(Mesh& mesh, std::vector<HexCut> cuts);
 
 /// Lumped mass ρ ∫ N_a dV of an element's corners (m_I in (1) is their sum), or what its cut says.
 std::array<double, 8> corner_masses(const Mesh& mesh, std::size_t element);
+
+/// The same of elements [first, first + 8) of a region; beyond its end, anything.
+std::array<std::array<double, 8>, lanes> corner_masses_of_eight(const Mesh& mesh, const HexRegion& region,
+                                                                std::size_t first);
+
+/// visit(e, corner masses) for all elements, in order: quicker than asking for each.
+template <class Visit>
+void visit_corner_masses(const Mesh& mesh, Visit visit) {
+  for (const HexRegion& region : mesh.regions) {
+    const std::size_t end = region.first + region.count;
+    for (std::size_t first = region.first; first < end; first += lanes) {
+      const auto mass = corner_masses_of_eight(mesh, region, first);
+      for (std::size_t e = first; e < std::min(end, first + lanes); ++e) visit(e, mass[e - first]);
+    }
+  }
+}
+
+/// By region, the mass of its elements.
+std::vector<double> region_masses(const Mesh& mesh);
 
 /// Set mesh.mass to the sum of all elements' corner masses.
 void lump_masses(Mesh& mesh);

@@ -24,6 +24,8 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <unordered_map>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "fe/elements.hpp"
@@ -54,10 +56,17 @@ ShapeKey shape_key(const hex8::Corners& x, std::int64_t cut) {
   for (int a = 1; a < 8; ++a) size = std::max(size, norm(x[a] - x[0]));
   ShapeKey key;
   key[21] = std::ilogb(size) - 33, key[22] = cut;
+  const double units = std::ldexp(1, -static_cast<int>(key[21]));
   for (int a = 1; a < 8; ++a)
-    for (int i = 0; i < 3; ++i)
-      key[3 * (a - 1) + i] = std::llround(std::ldexp(x[a][i] - x[0][i], -static_cast<int>(key[21])));
+    for (int i = 0; i < 3; ++i) key[3 * (a - 1) + i] = std::llround((x[a][i] - x[0][i]) * units);
   return key;
+}
+
+std::uint64_t hash_of(const ShapeKey& key) {
+  std::uint64_t h = 0;
+  for (const std::int64_t part : key)
+    h = (h ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15ull, h ^= h >> 29;
+  return h;
 }
 
 /// Masses and gradients of a cut, to about 10⁻¹⁰ of their size.
@@ -83,20 +92,42 @@ struct Shapes {
   std::vector<std::size_t> example, of_element;
 };
 
-Shapes find_shapes(const Mesh& mesh, const HexRegion& region) {
-  Shapes shapes;
-  std::map<ShapeKey, std::size_t> known;
-  std::map<CutKey, std::int64_t> cuts;
-  for (std::size_t e = region.first; e < region.first + region.count; ++e) {
-    const HexCut* const cut = cut_of(mesh, e);
-    const std::int64_t number =
-        cut ? cuts.try_emplace(cut_key(*cut), static_cast<std::int64_t>(cuts.size()) + 1).first->second : 0;
-    const auto [it, is_new] = known.try_emplace(shape_key(hex8::corners(mesh, e), number), known.size());
-    if (is_new) shapes.example.push_back(e);
-    shapes.of_element.push_back(it->second);
+/// Numbers the shapes of a region as they come. Of shapes seen before only a hash is kept: they are many.
+class ShapeFinder {
+ public:
+  ShapeFinder(const Mesh& mesh, const HexRegion& region) : mesh_(mesh) {
+    for (std::size_t e = region.first; e < region.first + region.count; ++e)
+      shapes_.of_element.push_back(shape_of(e));
   }
-  return shapes;
-}
+  Shapes take() { return std::move(shapes_); }
+
+ private:
+  ShapeKey key_of(std::size_t e) {
+    const HexCut* const cut = cut_of(mesh_, e);
+    const std::int64_t number =
+        cut ? cuts_.try_emplace(cut_key(*cut), static_cast<std::int64_t>(cuts_.size()) + 1).first->second : 0;
+    return shape_key(hex8::corners(mesh_, e), number);
+  }
+  std::size_t shape_of(std::size_t e) {
+    const ShapeKey key = key_of(e);
+    if (!shapes_.example.empty() && key == last_key_) return last_;  // as most are, next to each other
+    last_key_ = key;
+    const std::uint64_t hash = hash_of(key);
+    const auto [first, end] = known_.equal_range(hash);
+    for (auto it = first; it != end; ++it)
+      if (key_of(shapes_.example[it->second]) == key) return last_ = it->second;
+    last_ = shapes_.example.size();
+    known_.emplace(hash, last_);
+    shapes_.example.push_back(e);
+    return last_;
+  }
+  const Mesh& mesh_;
+  Shapes shapes_;
+  std::unordered_multimap<std::uint64_t, std::size_t> known_;  ///< shapes by hash
+  std::map<CutKey, std::int64_t> cuts_;
+  ShapeKey last_key_{};
+  std::size_t last_ = 0;
+};
 
 /// M^{-1/2} A M^{-1/2} of an element's matrices, which has the eigenvalues of M⁻¹A.
 struct Scaled {
@@ -123,16 +154,77 @@ double largest_eigenvalue(const Matrix24& A) {
   return std::max(0.0, solver.eigenvalues()(23));
 }
 
-/// Largest sum of |row| of M⁻¹A = M^{-1/2} (scaled A) M^{1/2}.
-double gershgorin(const Matrix24& A, const Eigen::Matrix<double, 24, 1>& root_mass) {
-  return ((A.cwiseAbs() * root_mass).array() / root_mass.array()).maxCoeff();
+/// Largest sum of |row| of M⁻¹A of eight elements with these corner masses; `force_of(unit, f)` computes the
+/// forces f = −A unit.
+template <class F>
+Pack gershgorin(const Pack (&mass)[8], F force_of) {
+  Corners<Pack> sums{};
+  for (int d = 0; d < 24; ++d) {
+    Corners<Pack> unit{}, f;
+    unit[d / 3][d % 3] = broadcast(1);
+    force_of(unit, f);
+    for (int a = 0; a < 8; ++a)
+      for (int i = 0; i < 3; ++i) sums[a][i] += f[a][i] < 0 ? -f[a][i] : f[a][i];
+  }
+  Pack largest{};
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) {
+      const Pack row = sums[a][i] / mass[a];
+      largest = row > largest ? row : largest;
+    }
+  return largest;
 }
 
 /// Solution of y² = k + c y.
 double start(double k, double c) { return c / 2 + std::sqrt(c * c / 4 + k); }
 
-double bound(const Scaled& m) {
-  return start(gershgorin(m.stiffness, m.root_mass), gershgorin(m.damping, m.root_mass));
+/// Eight elements.
+struct Eight {
+  Corners<Pack> X;
+  Pack mass[8];
+
+  Eight(const Mesh& mesh, const std::array<std::size_t, lanes>& elements) {
+    for (int l = 0; l < lanes; ++l) {
+      const Corners<double> x = local_corners(mesh, elements[l]);
+      const auto m = corner_masses(mesh, elements[l]);
+      for (int a = 0; a < 8; ++a) {
+        mass[a][l] = m[a];
+        for (int i = 0; i < 3; ++i) X[a][i][l] = x[a][i];
+      }
+    }
+  }
+};
+
+/// Bounds of ω_e by Gershgorin's circles.
+template <class Formulation>
+std::array<double, lanes> bounds(const Eight& e, const Formulation& formulation) {
+  const Corners<Pack> rest{};
+  const Pack k = gershgorin(
+      e.mass, [&](const Corners<Pack>& u, Corners<Pack>& f) { formulation.forces(e.X, u, rest, f); });
+  Pack c{};
+  if constexpr (Formulation::uses_velocity)
+    c = gershgorin(e.mass,
+                   [&](const Corners<Pack>& v, Corners<Pack>& f) { formulation.forces(e.X, rest, v, f); });
+  std::array<double, lanes> y;
+  for (int l = 0; l < lanes; ++l) y[l] = start(k[l], c[l]);
+  return y;
+}
+
+/// The same of any elements of a region; cut ones are taken one by one.
+template <class Formulation>
+std::array<double, lanes> bounds(const Mesh& mesh, const std::array<std::size_t, lanes>& elements,
+                                 const Formulation& formulation) {
+  const auto is_cut = [&mesh](std::size_t e) { return cut_of(mesh, e) != nullptr; };
+  if (std::none_of(elements.begin(), elements.end(), is_cut))
+    return bounds(Eight(mesh, elements), formulation);
+  std::array<double, lanes> y;
+  for (int l = 0; l < lanes; ++l) {
+    std::array<std::size_t, lanes> same;
+    same.fill(elements[l]);
+    y[l] = visit_element(mesh, elements[l], formulation,
+                         [&](const auto& own) { return bounds(Eight(mesh, same), own)[0]; });
+  }
+  return y;
 }
 
 /// Solution of (*), from above.
@@ -159,7 +251,12 @@ std::vector<double> shape_frequencies(const Mesh& mesh, const Shapes& shapes, Fo
     return scaled_matrices(mesh, shapes.example[s], formulation);
   };
   if (n > most_eigenproblems) {
-    for_each(n, [matrices, out = omega.data()](std::size_t s) { out[s] = bound(matrices(s)); });
+    for_each((n + lanes - 1) / lanes, [=, &mesh, &shapes, out = omega.data()](std::size_t pack) {
+      std::array<std::size_t, lanes> elements;
+      for (std::size_t l = 0; l < lanes; ++l) elements[l] = shapes.example[std::min(pack * lanes + l, n - 1)];
+      const auto y = bounds(mesh, elements, formulation);
+      std::copy_n(y.begin(), std::min<std::size_t>(lanes, n - pack * lanes), out + pack * lanes);
+    });
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return omega[a] != omega[b] ? omega[a] > omega[b] : a < b;
     });
@@ -177,7 +274,7 @@ std::vector<double> frequencies_squared(const Mesh& mesh, std::size_t most_eigen
   std::vector<double> squares(mesh.elements.size());
   for (const HexRegion& region : mesh.regions)
     visit_formulation(region.formulation, parameters(region), [&](auto formulation) {
-      const Shapes shapes = find_shapes(mesh, region);
+      const Shapes shapes = ShapeFinder(mesh, region).take();
       const std::vector<double> omega = shape_frequencies(mesh, shapes, formulation, most_eigenproblems);
       for (std::size_t i = 0; i < region.count; ++i) {
         const double w = omega[shapes.of_element[i]];

@@ -13,6 +13,11 @@ double longest_diagonal(const Corners& x) {
   return longest;
 }
 
+void copy(const Corners& x, double (&to)[8][3]) {
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t i = 0; i < 3; ++i) to[a][i] = x[a][i];
+}
+
 /// One Newton step from ξ, or nothing where the map is singular.
 bool newton_step(const Corners& x, Vec3 residual, Vec3 xi, double scale, Vec3& step) {
   const Mat3 J = jacobian(x, xi);
@@ -41,25 +46,6 @@ Corners corners(const Mesh& mesh, std::size_t e) {
   Corners x;
   for (int a = 0; a < 8; ++a) x[a] = mesh.points[mesh.elements[e][a]];
   return x;
-}
-
-std::array<double, 8> shape(Vec3 xi) {
-  std::array<double, 8> N;
-  for (int a = 0; a < 8; ++a) {
-    const Vec3 s = corner_xi[a];
-    N[a] = (1 + s.x * xi.x) * (1 + s.y * xi.y) * (1 + s.z * xi.z) / 8;
-  }
-  return N;
-}
-
-std::array<Vec3, 8> shape_gradient(Vec3 xi) {
-  std::array<Vec3, 8> g;
-  for (int a = 0; a < 8; ++a) {
-    const Vec3 s = corner_xi[a];
-    const double p = 1 + s.x * xi.x, q = 1 + s.y * xi.y, r = 1 + s.z * xi.z;
-    g[a] = {s.x * q * r / 8, p * s.y * r / 8, p * q * s.z / 8};
-  }
-  return g;
 }
 
 Vec3 map(const Corners& x, Vec3 xi) {
@@ -115,18 +101,16 @@ double smallest_determinant(const Corners& x) {
 bool valid(const Corners& x) { return is_parallelepiped(x) || smallest_determinant(x) > 0; }
 
 std::array<double, 8> corner_volumes(const Corners& x) {
-  std::array<double, 8> v{};
-  for (Vec3 s : corner_xi) {
-    const auto N = shape(gauss * s);
-    const double dV = det(jacobian(x, gauss * s));
-    for (int a = 0; a < 8; ++a) v[a] += N[a] * dV;
-  }
-  return v;
+  double corner[8][3], volumes[8];
+  copy(x, corner);
+  corner_volumes(corner, volumes);
+  return std::to_array(volumes);
 }
 
 double volume(const Corners& x) {
-  double v = 0;
-  for (Vec3 s : corner_xi) v += det(jacobian(x, gauss * s));
+  double corner[8][3], v = 0;
+  copy(x, corner);
+  for (const GaussPoint& at : gauss_points) v += determinant(corner, at);
   return v;
 }
 

@@ -2,83 +2,142 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "core/parallel.hpp"
 #include "geometry/hex8.hpp"
 
 namespace geist {
 namespace {
 
-std::pair<Vec3, Vec3> bounds_of(const hex8::Corners& corners) {
-  Vec3 low = corners[0], high = corners[0];
-  for (const Vec3 p : corners)
-    for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
-  return {low, high};
+constexpr std::size_t worth_threads = 1000;  ///< elements
+
+Box bounds_of(const Mesh& mesh, std::size_t e) {
+  Box box = nowhere();
+  for (const std::int32_t node : mesh.elements[e]) widen(box, mesh.points[node]);
+  return box;
 }
 
-std::uint64_t key(const std::array<long, 3>& c) {
-  return (static_cast<std::uint64_t>(c[0] & 0x1FFFFF) << 42) |
-         (static_cast<std::uint64_t>(c[1] & 0x1FFFFF) << 21) | static_cast<std::uint64_t>(c[2] & 0x1FFFFF);
+double longest_edge(const Box& box) {
+  const Vec3 edge = box.high - box.low;
+  return std::max({edge.x, edge.y, edge.z});
+}
+
+bool meet(const Box& a, const Box& b) {
+  for (int c = 0; c < 3; ++c)
+    if (a.low[c] > b.high[c] || a.high[c] < b.low[c]) return false;
+  return true;
 }
 
 }  // namespace
 
-Locator::Locator(const Mesh& mesh) : mesh_(mesh) {
+std::array<int, 3> Locator::Cells::at(Vec3 p) const {
+  std::array<int, 3> cell;
+  for (int c = 0; c < 3; ++c)
+    cell[c] = static_cast<int>(std::clamp((p[c] - around.low[c]) / width, 0.0, n[c] - 1.0));
+  return cell;
+}
+
+std::size_t Locator::Cells::index(const std::array<int, 3>& cell) const {
+  return (static_cast<std::size_t>(cell[2]) * n[1] + cell[1]) * n[0] + cell[0];
+}
+
+template <class F>
+void Locator::Cells::visit(const Box& box, F f) const {
+  if (!meet(box, around)) return;
+  const auto a = at(box.low), b = at(box.high);
+  for (int k = a[2]; k <= b[2]; ++k)
+    for (int j = a[1]; j <= b[1]; ++j)
+      for (int i = a[0]; i <= b[0]; ++i) f(index({i, j, k}));
+}
+
+Locator::Locator(const Mesh& mesh) : mesh_(mesh), box_(mesh.elements.size()) {
+  if (box_.empty()) return;
+  for_each(
+      box_.size(), [&mesh, box = box_.data()](std::size_t e) { box[e] = bounds_of(mesh, e); }, worth_threads);
   double sum = 0;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto [low, high] = bounds_of(hex8::corners(mesh, e));
-    sum += std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  }
-  if (!mesh.elements.empty()) width_ = sum / static_cast<double>(mesh.elements.size());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto [low, high] = bounds_of(hex8::corners(mesh, e));
-    const Vec3 margin{1e-6 * width_, 1e-6 * width_, 1e-6 * width_};
-    const auto a = cell(low - margin), b = cell(high + margin);
-    for (long i = a[0]; i <= b[0]; ++i)
-      for (long j = a[1]; j <= b[1]; ++j)
-        for (long k = a[2]; k <= b[2]; ++k) elements_[key({i, j, k})].push_back(static_cast<std::int32_t>(e));
-  }
+  for (const Box& box : box_) sum += longest_edge(box);
+  margin_ = 1e-6 * (sum / static_cast<double>(box_.size()));
+  for (const HexRegion& region : mesh.regions)
+    if (region.count > 0) sort(region.first, region.count);
 }
 
-std::array<long, 3> Locator::cell(Vec3 p) const {
-  return {static_cast<long>(std::floor(p.x / width_)), static_cast<long>(std::floor(p.y / width_)),
-          static_cast<long>(std::floor(p.z / width_))};
+void Locator::sort(std::size_t first, std::size_t count) {
+  constexpr double cells_an_element =
+      4;  // at most: bodies that leave much of their box empty take wider cells
+  Cells& cells = cells_.emplace_back();
+  cells.around = nowhere();
+  double sum = 0;
+  for (std::size_t e = first; e < first + count; ++e) {
+    sum += longest_edge(box_[e]);
+    for (int c = 0; c < 3; ++c) box_[e].low[c] -= margin_, box_[e].high[c] += margin_;
+    widen(cells.around, box_[e]);
+  }
+  cells.width = sum / static_cast<double>(count);
+  const Vec3 half{cells.width / 2, cells.width / 2,
+                  cells.width / 2};  // elements of a grid reach into 8 cells
+  cells.around.low -= half, cells.around.high += half;
+  const Vec3 edge = cells.around.high - cells.around.low;
+  const double most = cells_an_element * static_cast<double>(count) + 64,
+               cell = cells.width * cells.width * cells.width;
+  const double crowd = edge.x * edge.y * edge.z / (cell * most);
+  if (crowd > 1) cells.width *= std::cbrt(crowd);
+  for (int c = 0; c < 3; ++c) cells.n[c] = static_cast<int>(edge[c] / cells.width) + 1;
+  cells.begin.assign(static_cast<std::size_t>(cells.n[0]) * cells.n[1] * cells.n[2] + 2, 0);
+  const auto each = [&](auto f) {
+    for (std::size_t e = first; e < first + count; ++e) cells.visit(box_[e], [&](std::size_t c) { f(c, e); });
+  };
+  each([&](std::size_t c, std::size_t) { ++cells.begin[c + 2]; });
+  std::partial_sum(cells.begin.begin(), cells.begin.end(), cells.begin.begin());
+  cells.element.resize(cells.begin.back());
+  each([&](std::size_t c, std::size_t e) {
+    cells.element[cells.begin[c + 1]++] = static_cast<std::int32_t>(e);
+  });
 }
 
-std::optional<Location> Locator::find(Vec3 p, double slack, std::int32_t stranger) const {
-  const auto it = elements_.find(key(cell(p)));
-  if (it == elements_.end()) return std::nullopt;
-  for (const std::int32_t e : it->second) {
-    const auto& nodes = mesh_.elements[e];
-    if (std::find(nodes.begin(), nodes.end(), stranger) != nodes.end()) continue;
-    const auto corners = hex8::corners(mesh_, e);
-    const auto [low, high] = bounds_of(corners);
-    const double margin = 1e-6 * width_;
-    bool near = true;
-    for (int c = 0; c < 3; ++c) near = near && p[c] >= low[c] - margin && p[c] <= high[c] + margin;
-    if (!near) continue;
-    const auto [xi, converged] = hex8::inverse_map(corners, p);
-    if (converged && hex8::contains(xi, slack)) return Location{e, xi};
+/// wanted(e): whether e counts.
+template <class Wanted>
+std::optional<Location> Locator::first_of(Vec3 p, double slack, Wanted wanted) const {
+  for (const Cells& cells : cells_) {
+    if (!contains(cells.around, p)) continue;
+    const std::size_t cell = cells.index(cells.at(p));
+    for (std::uint32_t i = cells.begin[cell]; i < cells.begin[cell + 1]; ++i) {
+      const std::int32_t e = cells.element[i];
+      if (!contains(box_[e], p) || !wanted(e)) continue;
+      const auto [xi, converged] = hex8::inverse_map(hex8::corners(mesh_, static_cast<std::size_t>(e)), p);
+      if (converged && hex8::contains(xi, slack)) return Location{e, xi};
+    }
   }
   return std::nullopt;
 }
 
+std::optional<Location> Locator::find(Vec3 p, double slack, std::int32_t stranger) const {
+  return first_of(p, slack, [&](std::int32_t e) {
+    const auto& nodes = mesh_.elements[e];
+    return std::find(nodes.begin(), nodes.end(), stranger) == nodes.end();
+  });
+}
+
+std::optional<Location> Locator::find_before(std::int32_t end, Vec3 p) const {
+  return first_of(p, 1e-7, [end](std::int32_t e) { return e < end; });
+}
+
 std::vector<std::int32_t> Locator::near(const Box& box) const {
   std::vector<std::int32_t> found;
-  const auto a = cell(box.low), b = cell(box.high);
-  for (long i = a[0]; i <= b[0]; ++i)
-    for (long j = a[1]; j <= b[1]; ++j)
-      for (long k = a[2]; k <= b[2]; ++k) {
-        const auto it = elements_.find(key({i, j, k}));
-        if (it != elements_.end()) found.insert(found.end(), it->second.begin(), it->second.end());
-      }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   const auto apart = [&](std::int32_t e) {
-    const auto [low, high] = bounds_of(hex8::corners(mesh_, static_cast<std::size_t>(e)));
-    for (int c = 0; c < 3; ++c)
-      if (low[c] > box.high[c] || high[c] < box.low[c]) return true;
-    return false;
+    const Box own = bounds_of(mesh_, static_cast<std::size_t>(e));
+    return !meet(own, box);
   };
+  for (const Cells& cells : cells_) {
+    const std::size_t before = found.size();
+    cells.visit(box, [&](std::size_t cell) {
+      for (std::uint32_t i = cells.begin[cell]; i < cells.begin[cell + 1]; ++i)
+        if (meet(box_[cells.element[i]], box)) found.push_back(cells.element[i]);
+    });
+    const auto own = found.begin() + static_cast<std::ptrdiff_t>(before);
+    std::sort(own, found.end());
+    found.erase(std::unique(own, found.end()), found.end());
+  }
   found.erase(std::remove_if(found.begin(), found.end(), apart), found.end());
   return found;
 }

@@ -6,7 +6,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
+#include "core/parallel.hpp"
 #include "de/bonds.hpp"
 #include "de/rotation.hpp"
 #include "fe/elements.hpp"
@@ -16,30 +19,40 @@ namespace {
 
 using Values = std::vector<double>;
 
+constexpr std::size_t worth_threads = 10'000;  ///< places
+
 Values node_vectors(const Field<3>& field) {
   Values values(3 * field.size());
-  for (std::size_t i = 0; i < field.size(); ++i)
-    for (int c = 0; c < 3; ++c) values[3 * i + c] = field[c][i];
+  const auto copy = [&field, to = values.data()](std::size_t i) {
+    for (int c = 0; c < 3; ++c) to[3 * i + c] = field[c][i];
+  };
+  for_each(field.size(), copy, worth_threads);
   return values;
 }
 
 Values mean(Values a, const Values& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = 0.5 * (a[i] + b[i]);
+  for_each(
+      a.size(), [x = a.data(), y = b.data()](std::size_t i) { x[i] = 0.5 * (x[i] + y[i]); }, worth_threads);
   return a;
 }
 
 Values stresses(const Model& model) {
-  Values values;
-  values.reserve(6 * model.mesh.elements.size());
-  for (const std::array<double, 6>& s : fe::centre_stresses(model.mesh))
-    values.insert(values.end(), s.begin(), s.end());
+  const auto of_elements = fe::centre_stresses(model.mesh);
+  Values values(6 * of_elements.size());
+  const auto copy = [&of_elements, to = values.data()](std::size_t e) {
+    std::copy(of_elements[e].begin(), of_elements[e].end(), to + 6 * e);
+  };
+  for_each(of_elements.size(), copy, worth_threads);
   return values;
 }
 
 Values von_mises_stresses(const Model& model) {
-  Values values;
-  values.reserve(model.mesh.elements.size());
-  for (const std::array<double, 6>& s : fe::centre_stresses(model.mesh)) values.push_back(von_mises(s));
+  const auto of_elements = fe::centre_stresses(model.mesh);
+  Values values(of_elements.size());
+  const auto reduce = [&of_elements, to = values.data()](std::size_t e) {
+    to[e] = von_mises(of_elements[e]);
+  };
+  for_each(of_elements.size(), reduce, worth_threads);
   return values;
 }
 
@@ -54,32 +67,51 @@ Values hexahedron_regions(const Model& model) {
   return values;
 }
 
-/// visit(lattice, its number, site) for every site with the flag.
-template <class F>
-void visit_sites(const Model& model, std::uint32_t flag, F visit) {
-  for (std::size_t l = 0; l < model.lattices.size(); ++l)
-    for (std::size_t s = 0; s < model.lattices[l].word.size(); ++s)
-      if (model.lattices[l].is(s, flag)) visit(model.lattices[l], l, s);
+/// By row of a lattice's sites, how many with the flag come before it, from `before` on; and all of them at
+/// the end.
+std::vector<std::size_t> places_of_rows(const Lattice& lattice, std::uint32_t flag, std::size_t before) {
+  const std::size_t rows = lattice.grid.rows(), stride = lattice.grid.stride();
+  std::vector<std::size_t> first(rows + 1, before);
+  const auto count = [&lattice, flag, stride, to = first.data() + 1](std::size_t row) {
+    const auto word = lattice.word.begin() + static_cast<std::ptrdiff_t>(row * stride);
+    to[row] = std::count_if(word, word + static_cast<std::ptrdiff_t>(stride),
+                            [flag](std::uint32_t w) { return w & flag; });
+  };
+  for_each(rows, count, worth_threads / stride);
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
 }
 
-/// One number for every site with the flag.
+/// `components` numbers for every site with the flag, which fill(lattice, its number, site, numbers) sets.
 template <class F>
-Values site_values(const Model& model, std::uint32_t flag, F value) {
+Values site_values(const Model& model, std::uint32_t flag, int components, F fill) {
   Values values;
-  visit_sites(model, flag, [&](const Lattice& lattice, std::size_t l, std::size_t s) {
-    values.push_back(value(lattice, l, s));
-  });
+  std::size_t places = 0;
+  for (std::size_t l = 0; l < model.lattices.size(); ++l) {
+    const Lattice& lattice = model.lattices[l];
+    const std::size_t stride = lattice.grid.stride();
+    const std::vector<std::size_t> first = places_of_rows(lattice, flag, places);
+    places = first.back();
+    values.resize(places * components);
+    const auto fill_row = [&lattice, &fill, flag, components, l, stride, from = first.data(),
+                           to = values.data()](std::size_t row) {
+      double* next = to + from[row] * components;
+      for (std::size_t s = row * stride; s < (row + 1) * stride; ++s)
+        if (lattice.is(s, flag)) fill(lattice, l, s, next), next += components;
+    };
+    for_each(lattice.grid.rows(), fill_row, worth_threads / stride);
+  }
   return values;
 }
 
 /// Three components of a field of the lattice, from the first on, for every site with the flag.
 Values site_vectors(const Model& model, std::uint32_t flag, Field<6> Lattice::*field, int first) {
-  Values values;
-  visit_sites(model, flag, [&](const Lattice& lattice, std::size_t, std::size_t s) {
-    for (int c = 0; c < 3; ++c) values.push_back((lattice.*field)[first + c][s]);
+  return site_values(model, flag, 3, [=](const Lattice& lattice, std::size_t, std::size_t s, double* to) {
+    for (int c = 0; c < 3; ++c) to[c] = (lattice.*field)[first + c][s];
   });
-  return values;
 }
+
+void put(Vec3 a, double* to) { to[0] = a.x, to[1] = a.y, to[2] = a.z; }
 
 template <std::uint32_t flag>
 Values site_displacements(const Model& model) {
@@ -87,12 +119,9 @@ Values site_displacements(const Model& model) {
 }
 template <std::uint32_t flag>
 Values rotations(const Model& model) {
-  Values values;
-  visit_sites(model, flag, [&](const Lattice& lattice, std::size_t, std::size_t s) {
-    const Vec3 theta = de::rotation_vector(lattice, s);
-    values.insert(values.end(), {theta.x, theta.y, theta.z});
+  return site_values(model, flag, 3, [](const Lattice& lattice, std::size_t, std::size_t s, double* to) {
+    put(de::rotation_vector(lattice, s), to);
   });
-  return values;
 }
 template <std::uint32_t flag, int first>
 Values velocity_after(const Model& model) {
@@ -105,28 +134,30 @@ Values velocity_now(const Model& model) {
 }
 template <std::uint32_t flag>
 Values radii(const Model& model) {
-  return site_values(model, flag,
-                     [](const Lattice& lattice, std::size_t, std::size_t) { return lattice.radius(); });
+  return site_values(model, flag, 1, [](const Lattice& lattice, std::size_t, std::size_t, double* to) {
+    *to = lattice.radius();
+  });
 }
 
 Values strain_energies(const Model& model) {
   std::vector<Values> energies;
   for (const Lattice& lattice : model.lattices) energies.push_back(de::site_energies(lattice));
-  return site_values(model, site::particle,
-                     [&](const Lattice&, std::size_t l, std::size_t s) { return energies[l][s]; });
+  return site_values(model, site::particle, 1,
+                     [&](const Lattice&, std::size_t l, std::size_t s, double* to) { *to = energies[l][s]; });
 }
 
 Values intact_bonds(const Model& model) {
-  return site_values(model, site::particle, [](const Lattice& lattice, std::size_t, std::size_t s) {
-    return std::popcount(lattice.word[s] & site::bonds);
-  });
+  return site_values(model, site::particle, 1,
+                     [](const Lattice& lattice, std::size_t, std::size_t s, double* to) {
+                       *to = std::popcount(lattice.word[s] & site::bonds);
+                     });
 }
 
 template <std::uint32_t flag>
 Values lattice_regions(const Model& model) {
   const std::size_t before = model.mesh.regions.size();
-  return site_values(model, flag, [before](const Lattice&, std::size_t l, std::size_t) {
-    return static_cast<double>(before + l);
+  return site_values(model, flag, 1, [before](const Lattice&, std::size_t l, std::size_t, double* to) {
+    *to = static_cast<double>(before + l);
   });
 }
 
@@ -153,18 +184,19 @@ Values node_contact_forces(const Simulation& sim) {
 
 /// Touched places come in the order of lattices and sites, too, after the nodes.
 Values particle_contact_forces(const Simulation& sim) {
-  const std::vector<contact::TouchedPlace>& touched = sim.contacts.touched();
-  auto next =
-      std::find_if(touched.begin(), touched.end(), [](const auto& t) { return t.place.lattice >= 0; });
-  Values values;
-  visit_sites(sim.model, site::particle, [&](const Lattice&, std::size_t l, std::size_t s) {
-    Vec3 force;
-    const bool here = next != touched.end() && next->place.lattice == static_cast<std::int32_t>(l) &&
-                      next->place.index == s;
-    if (here) force = (next++)->force;
-    for (int c = 0; c < 3; ++c) values.push_back(force[c]);
-  });
-  return values;
+  using contact::TouchedPlace;
+  const std::vector<TouchedPlace>& touched = sim.contacts.touched();
+  const auto before = [](const TouchedPlace& t, std::pair<std::int32_t, std::size_t> site) {
+    return std::pair(t.place.lattice, t.place.index) < site;
+  };
+  return site_values(sim.model, site::particle, 3,
+                     [&](const Lattice&, std::size_t l, std::size_t s, double* to) {
+                       if (touched.empty()) return;
+                       const std::pair site(static_cast<std::int32_t>(l), s);
+                       const auto it = std::lower_bound(touched.begin(), touched.end(), site, before);
+                       if (it != touched.end() && it->place.lattice == site.first && it->place.index == s)
+                         put(it->force, to);
+                     });
 }
 
 using enum Place;

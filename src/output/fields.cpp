@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <list>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "core/parallel.hpp"
 #include "output/field_list.hpp"
 #include "output/file.hpp"
-#include "output/vtu.hpp"
 
 namespace geist::output {
 namespace {
@@ -20,32 +22,46 @@ struct Part {
   Place points;
   std::optional<Place> cells;
 };
+constexpr std::size_t worth_threads = 10'000;  ///< values
+
 constexpr std::array parts{Part{"hexahedra", Place::nodes, Place::hexahedra},
                            Part{"particles", Place::particles, {}}, Part{"ghosts", Place::ghosts, {}}};
 
 template <class T>
 std::vector<T> convert(const std::vector<double>& values) {
   std::vector<T> converted(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) converted[i] = static_cast<T>(values[i]);
+  for_each(
+      values.size(),
+      [from = values.data(), to = converted.data()](std::size_t i) { to[i] = static_cast<T>(from[i]); },
+      worth_threads);
   return converted;
 }
 
-DataArray make_array(const FieldInfo& field, const Simulation& sim, const UnitSystem& units) {
-  const bool has_unit = field.dimension != dimension::none;
-  DataArray array{std::string(field.name), field.components, field.values(sim),
-                  has_unit ? units.label(field.dimension) : "", component_names(field)};
-  const auto& values = std::get<std::vector<double>>(array.values);
-  if (field.storage == Storage::single) array.values = convert<float>(values);
-  if (field.storage == Storage::integer) array.values = convert<std::int32_t>(values);
-  return array;
-}
+/// Makes the arrays of a simulation's fields.
+struct Arrays {
+  const Simulation& sim;
+  const UnitSystem& units;
+  Precision precision;
 
-std::vector<DataArray> shown_fields(Place place, const Simulation& sim, const UnitSystem& units) {
-  std::vector<DataArray> arrays;
-  for (const FieldInfo& field : fields())
-    if (field.place == place && field.shown) arrays.push_back(make_array(field, sim, units));
-  return arrays;
-}
+  DataArray make(const FieldInfo& field) const {
+    const bool has_unit = field.dimension != dimension::none;
+    DataArray array{std::string(field.name), field.components, field.values(sim),
+                    has_unit ? units.label(field.dimension) : "", component_names(field)};
+    const auto& values = std::get<std::vector<double>>(array.values);
+    const bool full = field.storage == Storage::full && precision == Precision::full;
+    if (field.storage == Storage::integer)
+      array.values = convert<std::int32_t>(values);
+    else if (!full)
+      array.values = convert<float>(values);
+    return array;
+  }
+  std::vector<DataArray> shown(Place place) const {
+    std::vector<DataArray> arrays;
+    for (const FieldInfo& field : fields())
+      if (field.place == place && field.shown) arrays.push_back(make(field));
+    return arrays;
+  }
+};
 
 void add_point(UnstructuredGrid& grid, Vec3 point) {
   for (int c = 0; c < 3; ++c) grid.points.push_back(point[c]);
@@ -67,36 +83,95 @@ void add_sites(UnstructuredGrid& grid, const Model& model, std::uint32_t flag) {
   std::iota(grid.connectivity.begin(), grid.connectivity.end(), 0);
 }
 
-/// Geometry of a part; without cells where the model has no such part.
-UnstructuredGrid geometry(const Part& part, const Model& model) {
-  UnstructuredGrid grid;
-  grid.time = model.time;
+bool exists(const Part& part, const Model& model) {
+  if (part.points == Place::nodes) return !model.mesh.elements.empty();
+  const std::uint32_t flag = part.points == Place::particles ? site::particle : site::ghost;
+  return std::any_of(model.lattices.begin(), model.lattices.end(),
+                     [flag](const Lattice& lattice) { return lattice.count(flag) > 0; });
+}
+
+void add_geometry(UnstructuredGrid& grid, const Part& part, const Model& model) {
   if (part.points == Place::nodes)
     add_hexahedra(grid, model.mesh);
   else
     add_sites(grid, model, part.points == Place::particles ? site::particle : site::ghost);
-  return grid;
 }
 
 }  // namespace
 
-FieldWriter::FieldWriter(std::filesystem::path directory, UnitSystem units, bool compress)
-    : directory_(std::move(directory)), units_(units), compress_(compress) {
+/// The fields of a step, on their way into files.
+struct FieldWriter::Snapshot {
+  struct File {
+    std::size_t part;
+    GridEncoder grid;
+    File(std::size_t p, UnstructuredGrid g, bool compress, std::shared_ptr<const EncodedGeometry> geometry)
+        : part(p), grid(std::move(g), compress, std::move(geometry)) {}
+  };
+  long step = 0;
+  double time = 0;
+  std::list<File> files = {};
+
+  void work() {
+    for (File& file : files) file.grid.work();
+  }
+};
+
+FieldWriter::FieldWriter(std::filesystem::path directory, UnitSystem units, bool compress,
+                         Precision precision)
+    : directory_(std::move(directory)),
+      units_(units),
+      compress_(compress),
+      precision_(precision),
+      geometry_(parts.size()) {
   make_directory(directory_ / fields_folder);
 }
 
+FieldWriter::~FieldWriter() {
+  if (written_.valid()) written_.wait();
+}
+
 void FieldWriter::write(const Simulation& sim) {
+  finish();
+  std::shared_ptr<Snapshot> taken = snapshot(sim);
+  under_way_ = taken;
+  written_ = std::async(std::launch::async, [this, taken = std::move(taken)]() mutable {
+    run_anywhere();
+    write(*taken);
+    taken.reset();
+  });
+}
+
+void FieldWriter::finish() {
+  if (!written_.valid()) return;
+  if (const std::shared_ptr<Snapshot> taken = under_way_.lock())
+    for_each(static_cast<std::size_t>(threads()), [help = taken.get()](std::size_t) { help->work(); });
+  written_.get();
+}
+
+std::shared_ptr<FieldWriter::Snapshot> FieldWriter::snapshot(const Simulation& sim) const {
   const Model& model = sim.model;
-  std::erase_if(entries_, [&](const Entry& entry) { return entry.step == model.step; });
+  const Arrays arrays{sim, units_, precision_};
+  auto taken = std::make_shared<Snapshot>();
+  taken->step = model.step, taken->time = model.time;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!exists(parts[p], model)) continue;
+    UnstructuredGrid grid;
+    grid.time = model.time;
+    if (!geometry_[p]) add_geometry(grid, parts[p], model);
+    grid.point_data = arrays.shown(parts[p].points);
+    if (parts[p].cells) grid.cell_data = arrays.shown(*parts[p].cells);
+    taken->files.emplace_back(p, std::move(grid), compress_, geometry_[p]);
+  }
+  return taken;
+}
+
+void FieldWriter::write(Snapshot& taken) {
+  std::erase_if(entries_, [&](const Entry& entry) { return entry.step == taken.step; });
   int number = 0;
-  for (const Part& part : parts) {
-    UnstructuredGrid grid = geometry(part, model);
-    if (grid.connectivity.empty()) continue;
-    grid.point_data = shown_fields(part.points, sim, units_);
-    if (part.cells) grid.cell_data = shown_fields(*part.cells, sim, units_);
-    const std::string file = fmt::format("{}/{}_{:06}.vtu", fields_folder, part.name, model.step);
-    write_vtu(directory_ / file, std::move(grid), compress_);
-    entries_.push_back({model.step, model.time, number++, part.name, file});
+  for (auto& [part, grid] : taken.files) {
+    const std::string file = fmt::format("{}/{}_{:06}.vtu", fields_folder, parts[part].name, taken.step);
+    geometry_[part] = grid.write(directory_ / file);
+    entries_.push_back({taken.step, taken.time, number++, parts[part].name, file});
   }
   write_collection();
 }

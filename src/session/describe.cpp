@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/parallel.hpp"
 #include "de/bonds.hpp"
@@ -20,12 +19,7 @@ namespace {
 
 using output::with_commas;
 
-std::string hex_region(const HexRegion& region, const Mesh& mesh, const output::UnitSystem& units) {
-  double mass = 0;
-  for (std::size_t e = region.first; e < region.first + region.count; ++e) {
-    const auto m = fe::corner_masses(mesh, e);
-    mass = std::accumulate(m.begin(), m.end(), mass);
-  }
+std::string hex_region(const HexRegion& region, double mass, const output::UnitSystem& units) {
   return fmt::format("  {:<12} {} hexahedra, {}; mass {:.6g} {}\n", region.name,
                      with_commas(static_cast<long long>(region.count)), region.formulation, mass,
                      units.mass().name);
@@ -56,7 +50,8 @@ std::string lattice_region(const Lattice& lattice, const output::UnitSystem& uni
 std::string regions(const Built& built, const output::UnitSystem& units) {
   const Model& model = built.simulation.model;
   std::string text = "Regions\n";
-  for (const HexRegion& region : model.mesh.regions) text += hex_region(region, model.mesh, units);
+  const std::vector<double> masses = fe::region_masses(model.mesh);
+  for (std::size_t r = 0; r < masses.size(); ++r) text += hex_region(model.mesh.regions[r], masses[r], units);
   for (const Lattice& lattice : model.lattices) text += lattice_region(lattice, units);
   const output::Counts n = output::count(model);
   text += fmt::format(

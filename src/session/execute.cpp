@@ -64,6 +64,22 @@ std::vector<output::ProbeValue> probe_values(const Case& input, const std::vecto
   return values;
 }
 
+output::Precision precision_of(const Case& input) {
+  return input.output.precision == "single" ? output::Precision::single : output::Precision::full;
+}
+
+/// Adds the time until its end to a sum, seconds.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum), begin_(output::Progress::wall_clock()) {}
+  Stopwatch(const Stopwatch&) = delete;
+  ~Stopwatch() { sum_ += output::Progress::wall_clock() - begin_; }
+
+ private:
+  double& sum_;
+  double begin_;
+};
+
 /// Writes history and fields, and shows progress.
 class Recorder : public Observer {
  public:
@@ -71,16 +87,20 @@ class Recorder : public Observer {
       : input_(input),
         probes_(probes),
         history_(options.directory / output::history_name, probe_values(input, probes, nullptr)),
-        fields_(options.directory, units_of(input), input.output.compress),
+        fields_(options.directory, units_of(input), input.output.compress, precision_of(input)),
         progress_(stderr, output::Progress::style_for(stderr, options.quiet), input.units.time) {}
 
   void history(const Simulation& sim, const Observation& now) override {
+    const Stopwatch timing(seconds_);
     std::vector<double> values;
     for (const Probe& p : probes_) values.push_back(p.value(sim));
     history_.write({sim.model.step, sim.model.time, std::move(values), now.ledger, now.residual});
   }
 
-  void fields(const Simulation& sim, const Observation&) override { fields_.write(sim); }
+  void fields(const Simulation& sim, const Observation&) override {
+    const Stopwatch timing(seconds_);
+    fields_.write(sim);
+  }
 
   void progress(const Simulation& sim, const Observation& now) override {
     if (now.iterations > 0) return iteration(now);
@@ -102,8 +122,15 @@ class Recorder : public Observer {
     output::print(stderr, fmt::format("geist: warning: {}\n", message));
   }
 
-  void finish() { progress_.finish(); }
+  /// Wait for what is still being written. Throws std::runtime_error.
+  void finish() {
+    const Stopwatch timing(seconds_);
+    progress_.finish();
+    fields_.finish();
+  }
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// What the run waited for output, seconds.
+  double seconds() const { return seconds_; }
 
  private:
   void iteration(const Observation& now) {
@@ -121,6 +148,7 @@ class Recorder : public Observer {
   output::FieldWriter fields_;
   output::Progress progress_;
   std::vector<std::string> warnings_;
+  double seconds_ = 0;
 };
 
 RunPlan plan_of(const Case& input, const ExecuteOptions& options) {
@@ -173,19 +201,21 @@ nlohmann::ordered_json as_json(const std::string& toml_text) {
   return nlohmann::ordered_json::parse(text.str());
 }
 
-std::vector<output::Phase> phases_of(const Timers& timers, double wall) {
+/// Where the wall time went; `output` of it into waiting for files.
+std::vector<output::Phase> phases_of(const Timers& timers, double output, double wall) {
   std::vector<output::Phase> phases;
-  double known = 0;
+  double known = output;
   for (std::size_t i = 0; i < phase_names.size(); ++i) {
     phases.push_back({phase_names[i], timers.seconds(static_cast<Phase>(i))});
     known += phases.back().seconds;
   }
-  phases.push_back({"writing and the rest", std::max(0.0, wall - known)});
+  phases.push_back({"output", output});
+  phases.push_back({"the rest", std::max(0.0, wall - known)});
   return phases;
 }
 
 output::RunSummary summarise(const Case& input, const ExecuteOptions& options, const Built& built,
-                             const Outcome& outcome, double wall) {
+                             const Outcome& outcome, double output, double wall) {
   const Simulation& sim = built.simulation;
   output::RunSummary s;
   s.title = input.title, s.status = status_name(outcome.status), s.message = outcome.message;
@@ -206,7 +236,7 @@ output::RunSummary summarise(const Case& input, const ExecuteOptions& options, c
         {found->residual,
          plan_of(input, options).is_static ? input.analysis.tolerance : static_start_tolerance,
          found->end == Equilibrium::End::found}};
-  s.phases = phases_of(sim.timers, wall);
+  s.phases = phases_of(sim.timers, output, wall);
   const auto rate = [&](std::size_t n) {
     return static_cast<double>(n) * static_cast<double>(s.steps) / wall;
   };
@@ -248,6 +278,22 @@ void print_end(const output::RunSummary& s, const ExecuteOptions& options) {
   output::print(stdout, text);
 }
 
+/// Run, and wait for all files.
+Outcome watched_run(Simulation& sim, const RunPlan& plan, Recorder& recorder) {
+  Outcome outcome;
+  const auto or_fail = [&](auto act) {
+    try {
+      act();
+    } catch (const std::runtime_error& e) {  // a file could not be written
+      outcome.status = Status::failed;
+      outcome.message = fmt::format("step {}, time {:.6g}: {}", sim.model.step, sim.model.time, e.what());
+    }
+  };
+  or_fail([&] { outcome = run(sim, plan, {&recorder}); });
+  or_fail([&] { recorder.finish(); });
+  return outcome;
+}
+
 }  // namespace
 
 int execute(const Case& input, const ExecuteOptions& options) {
@@ -258,22 +304,11 @@ int execute(const Case& input, const ExecuteOptions& options) {
   if (!options.quiet) output::print(stdout, describe(input, built) + "\n");
   const RunPlan plan = plan_of(input, options);
   const double begin = output::Progress::wall_clock();
-  Outcome outcome;
-  std::vector<std::string> warnings;
-  {
-    Recorder recorder(input, options, built.probes);
-    try {
-      outcome = run(built.simulation, plan, {&recorder});
-    } catch (const std::runtime_error& e) {  // a file could not be written
-      outcome.status = Status::failed;
-      outcome.message = fmt::format("step {}, time {:.6g}: {}", built.simulation.model.step,
-                                    built.simulation.model.time, e.what());
-    }
-    recorder.finish();
-    warnings = recorder.warnings();
-  }
-  auto summary = summarise(input, options, built, outcome, output::Progress::wall_clock() - begin);
-  summary.warnings = std::move(warnings);
+  Recorder recorder(input, options, built.probes);
+  const Outcome outcome = watched_run(built.simulation, plan, recorder);
+  auto summary =
+      summarise(input, options, built, outcome, recorder.seconds(), output::Progress::wall_clock() - begin);
+  summary.warnings = recorder.warnings();
   output::write_summary(options.directory / output::summary_name, summary);
   if (!outcome.message.empty())
     output::print(stderr, fmt::format("geist: {}: {}\n", summary.status, outcome.message));

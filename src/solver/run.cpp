@@ -29,9 +29,13 @@ class Schedule {
   std::vector<double> at_;
 };
 
+/// An observed step takes two to three times a plain one.
+constexpr double fewest_steps_to_a_row = 20;
+
 double history_interval(const RunPlan& plan, double dt) {
   if (plan.history_every > 0) return plan.history_every;
-  return plan.quasi_static ? static_cast<double>(plan.check_every) * dt : plan.end_time / 1000;
+  if (plan.quasi_static) return static_cast<double>(plan.check_every) * dt;
+  return std::max(plan.end_time / 1000, fewest_steps_to_a_row * dt);
 }
 
 /// From when on no load and no support changes any more: an equilibrium before that is not the one asked for.

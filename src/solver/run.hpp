@@ -37,9 +37,9 @@ struct RunPlan {
   long max_iterations = 10'000;  ///< static: give up then
   double end_time = 0;           ///< dynamic: the end; quasi-static: give up then, 0: never
   long max_steps = 10'000'000;   ///< give up then
-  double history_every =
-      0;  ///< in time; 0: a thousand rows of a dynamic run, every check of a quasi-static one
-  double fields_every = 0;          ///< in time; 0: the beginning and the end
+  double history_every = 0;  ///< in time; 0: a thousand rows of a dynamic run, but at most one in 20 steps;
+                             ///< every check of a quasi-static one
+  double fields_every = 0;   ///< in time; 0: the beginning and the end
   std::vector<double> fields_at;    ///< in time, beside the above
   long check_every = 100;           ///< steps between ledgers, whether a row is due or not
   double balance_tolerance = 0.05;  ///< |balance| / largest sum of energies so far, to stop at

@@ -25,10 +25,9 @@ NodeBounds node_bounds(const Model& model, const contact::Contacts& contacts) {
   NodeBounds at{std::vector<double>(mesh.nodes(), 0.0), std::vector<double>(mesh.nodes(), 0.0),
                 contacts.node_charges(model)};
   const std::vector<double> omega2 = fe::frequencies_squared(mesh);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto m = fe::corner_masses(mesh, e);
+  fe::visit_corner_masses(mesh, [&](std::size_t e, const std::array<double, 8>& m) {
     for (int a = 0; a < 8; ++a) at.elements[mesh.elements[e][a]] += omega2[e] * m[a];
-  }
+  });
   for (const Lattice& lattice : model.lattices) {
     if (lattice.ghosts.empty()) continue;
     const double omega2_L = de::largest_frequency_squared(lattice);

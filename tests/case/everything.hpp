@@ -138,6 +138,7 @@ component = "x"
 fields = { every = 1e-3, at = [2e-4, 5e-4] }
 history = { every = 1e-4 }
 compress = false
+precision = "single"
 )";
 
 }  // namespace geist

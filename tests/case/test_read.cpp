@@ -41,6 +41,7 @@ TEST(Read, Beam) {
   EXPECT_EQ(beam.probes.at(0).reduce, "mean");
   EXPECT_EQ(beam.output.history_every, 0.01);
   EXPECT_TRUE(beam.output.compress);
+  EXPECT_EQ(beam.output.precision, "double");
 }
 
 /// What a method's defaults are, and in which analyses displacements are finite.

@@ -109,6 +109,34 @@ TEST(Locator, AvoidsElementsOfAStranger) {
   EXPECT_FALSE(locator.find(on_shared_face, 1e-7, shared));
 }
 
+TEST(Locator, FindsTheFirstBeforeAnElement) {
+  Mesh mesh;
+  append_block(mesh, {}, corners_of({{0, 0, 0}, {2, 1, 1}}), {2, 1, 1});
+  append_block(mesh, {}, corners_of({{0.5, 0, 0}, {1.5, 1, 1}}), {1, 1, 1});
+  const Locator locator(mesh);
+  const Vec3 p{0.75, 0.4, 0.6};  // in elements 0 and 2
+  EXPECT_FALSE(locator.find_before(0, p));
+  EXPECT_EQ(locator.find_before(2, p)->element, 0);
+  EXPECT_EQ(locator.find(p)->element, 0);
+  EXPECT_FALSE(locator.find_before(1, {1.75, 0.4, 0.6}));
+}
+
+/// Two specks at the ends of a long diagonal, and a plate askew: far fewer cells than their boxes would hold.
+TEST(Locator, CopesWithEmptyBoxes) {
+  Mesh mesh;
+  append_block(mesh, {}, corners_of({{0, 0, 0}, {1, 1, 1}}), {4, 4, 4});
+  append_block(mesh, {}, corners_of({{1e6, 1e6, 1e6}, {1e6 + 1, 1e6 + 1, 1e6 + 1}}), {4, 4, 4});
+  std::array<Vec3, 8> askew = corners_of({{0, 0, 10}, {40, 40, 10.5}});
+  for (Vec3& p : askew) p.z += p.x + p.y;
+  append_block(mesh, {}, askew, {80, 80, 1});
+  const Locator locator(mesh);
+  for (std::size_t e = 0; e < mesh.elements.size(); e += 7) {
+    const auto found = locator.find(hex8::map(hex8::corners(mesh, e), {0.3, -0.2, 0.1}));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->element, static_cast<std::int32_t>(e));
+  }
+}
+
 TEST(Locator, OfNothingFindsNothing) {
   const Mesh mesh;
   const Locator locator(mesh);

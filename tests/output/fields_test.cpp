@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 
+#include "core/parallel.hpp"
 #include "de/bonds.hpp"
 #include "fe/elements.hpp"
 #include "output/field_list.hpp"
@@ -158,6 +159,66 @@ TEST(Fields, CollectionListsEveryFileOnce) {
   EXPECT_EQ(files, 6u);
 }
 
+TEST(Fields, WhatIsWrittenIsTheStateAtTheCall) {
+  const Scratch scratch;
+  Simulation sim = small_simulation();
+  FieldWriter writer(scratch.path, units);
+  std::vector<double> expected;
+  for (long step = 0; step < 20; ++step) {  // the run goes on while the last fields are still being written
+    sim.model.step = step, sim.model.mesh.u[1][5] = 1.0 / double(step + 3);
+    expected.push_back(sim.model.mesh.u[1][5]);
+    writer.write(sim);
+    sim.model.mesh.u[1][5] = 0;
+  }
+  writer.finish();
+  for (std::size_t step = 0; step < expected.size(); ++step) {
+    const std::string file =
+        "fields/hexahedra_0000" + std::string(step < 10 ? "0" : "") + std::to_string(step);
+    EXPECT_EQ(read_vtu(scratch / (file + ".vtu")).arrays["PointData/displacement"].values[3 * 5 + 1],
+              expected[step]);
+  }
+}
+
+TEST(Fields, TheListIsOfCompleteFilesOnly) {
+  const Scratch scratch;
+  Simulation sim = small_simulation();
+  FieldWriter writer(scratch.path, units);
+  for (sim.model.step = 0; sim.model.step < 10; ++sim.model.step) {
+    writer.write(sim);
+    if (!exists(scratch / "fields.pvd")) continue;
+    for (const std::string& entry : listed_files(scratch / "fields.pvd"))
+      EXPECT_TRUE(exists(scratch.path / entry.substr(entry.rfind(' ') + 1))) << entry;
+  }
+}
+
+TEST(Fields, TheSameBytesWhoeverWritesThem) {
+  const Scratch one, many;
+  const Simulation sim = small_simulation();
+  set_threads(1);
+  FieldWriter(one.path, units).write(sim);
+  set_threads(4);
+  {
+    FieldWriter writer(many.path, units);
+    writer.write(sim), writer.finish();
+    writer.write(sim), writer.finish();  // with what is kept of points and cells
+  }
+  set_threads(1);
+  for (const std::string part : {"hexahedra", "particles", "ghosts"}) {
+    const std::string file = "fields/" + part + "_000120.vtu";
+    EXPECT_EQ(read_text(one / file), read_text(many / file));
+  }
+}
+
+TEST(Fields, StateInSinglePrecision) {
+  const Scratch scratch;
+  const Simulation sim = small_simulation();
+  FieldWriter(scratch.path, units, true, Precision::single).write(sim);
+  const ReadArray u = read_vtu(scratch / "fields/hexahedra_000120.vtu").arrays["PointData/displacement"];
+  EXPECT_EQ(u.type, "Float32");
+  EXPECT_EQ(u.values[3 * 5 + 1], static_cast<float>(sim.model.mesh.u[1][5]));
+  EXPECT_EQ(read_vtu(scratch / "fields/hexahedra_000120.vtu").arrays["Points/Points"].type, "Float64");
+}
+
 TEST(Fields, PartsThatDoNotExistAreLeftOut) {
   const Scratch scratch;
   Simulation sim = small_simulation();
@@ -174,13 +235,19 @@ TEST(Fields, FullDiskKeepsWhatWasThere) {
   Model& model = sim.model;
   FieldWriter writer(scratch.path, units);
   writer.write(sim);
+  writer.finish();
   const std::string before = read_text(scratch / "fields.pvd");
   model.step = 121;
   {
     const FullDisk full(64);
+    writer.write(sim);
+    EXPECT_EQ(error_of([&] { writer.finish(); }),
+              "cannot write " + (scratch / "fields/hexahedra_000121.vtu").string() + ": File too large");
+    writer.write(sim);
     EXPECT_EQ(error_of([&] { writer.write(sim); }),
               "cannot write " + (scratch / "fields/hexahedra_000121.vtu").string() + ": File too large");
   }
+  writer.finish();
   EXPECT_EQ(read_text(scratch / "fields.pvd"), before);
   EXPECT_FALSE(exists(scratch / "fields/hexahedra_000121.vtu"));
 }

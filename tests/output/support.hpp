@@ -60,7 +60,7 @@ struct ReadGrid {
   double time = 0;
   std::map<std::string, ReadArray> arrays;  ///< by section and name: "PointData/displacement"
 };
-/// Read a file of write_vtu, following the format's description and nothing else.
+/// Read a VTU file, following the format's description and nothing else.
 ReadGrid read_vtu(const std::filesystem::path& path);
 
 }  // namespace geist::testing

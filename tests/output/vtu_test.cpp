@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <random>
+
 #include "output/support.hpp"
 
 namespace geist::output {
@@ -37,7 +40,7 @@ TEST_P(VtuFile, GivesBackWhatWasWritten) {
   const Scratch scratch;
   for (const std::size_t n : {1u, 1000u, 32768u, 70001u}) {  // 32768: whole blocks; 70001: a short last block
     const UnstructuredGrid grid = points_with_values(n);
-    write_vtu(scratch / "a.vtu", grid, GetParam());
+    GridEncoder(grid, GetParam()).write(scratch / "a.vtu");
     auto read = read_vtu(scratch / "a.vtu");
     EXPECT_EQ(read.points, n);
     EXPECT_EQ(read.cells, n);
@@ -59,7 +62,7 @@ TEST_P(VtuFile, HexahedraHaveEightCorners) {
   const Scratch scratch;
   UnstructuredGrid grid = points_with_values(8);
   grid.cell = Cell::hexahedron, grid.cell_data.clear();
-  write_vtu(scratch / "a.vtu", grid, GetParam());
+  GridEncoder(grid, GetParam()).write(scratch / "a.vtu");
   auto read = read_vtu(scratch / "a.vtu");
   EXPECT_EQ(read.cells, 1u);
   EXPECT_EQ(read.arrays["Cells/offsets"].values, std::vector<double>{8});
@@ -72,7 +75,7 @@ TEST_P(VtuFile, FullDiskLeavesNothingBehind) {
   std::string error;
   {
     const FullDisk full(100'000);
-    error = error_of([&] { write_vtu(path, points_with_values(70001), GetParam()); });
+    error = error_of([&] { GridEncoder(points_with_values(70001), GetParam()).write(path); });
   }
   EXPECT_EQ(error, "cannot write " + path.string() + ": File too large");
   EXPECT_TRUE(std::filesystem::is_empty(scratch.path));
@@ -80,15 +83,37 @@ TEST_P(VtuFile, FullDiskLeavesNothingBehind) {
 
 TEST(Vtu, CompressionSavesSpace) {
   const Scratch scratch;
-  write_vtu(scratch / "raw.vtu", points_with_values(70001), false);
-  write_vtu(scratch / "compressed.vtu", points_with_values(70001), true);
+  GridEncoder(points_with_values(70001), false).write(scratch / "raw.vtu");
+  GridEncoder(points_with_values(70001), true).write(scratch / "compressed.vtu");
   EXPECT_LT(2 * file_size(scratch / "compressed.vtu"), file_size(scratch / "raw.vtu"));
+}
+
+TEST(Vtu, NoiseIsStoredAsItIs) {
+  const Scratch scratch;
+  UnstructuredGrid grid = points_with_values(70001);
+  std::mt19937_64 random(5);
+  auto& values = std::get<std::vector<double>>(grid.point_data[0].values);
+  for (double& v : values) v = std::bit_cast<double>((random() >> 12) | 0x3FF0000000000000ull);  // in [1, 2)
+  GridEncoder(grid, true).write(scratch / "noise.vtu");
+  EXPECT_EQ(read_vtu(scratch / "noise.vtu").arrays["PointData/pair"].values, values);
+  const std::string some(reinterpret_cast<const char*>(values.data()), 1000 * sizeof(double));
+  EXPECT_NE(testing::read_text(scratch / "noise.vtu").find(some), std::string::npos);
+}
+
+TEST(Vtu, GridsShareTheirGeometry) {
+  const Scratch scratch;
+  GridEncoder first(points_with_values(1000), true);
+  const auto geometry = first.write(scratch / "a.vtu");
+  UnstructuredGrid values = points_with_values(1000);
+  values.points.clear(), values.connectivity.clear();
+  GridEncoder(std::move(values), true, geometry).write(scratch / "b.vtu");
+  EXPECT_EQ(testing::read_text(scratch / "a.vtu"), testing::read_text(scratch / "b.vtu"));
 }
 
 TEST(Vtu, UnwritableDirectoryIsNamed) {
   const Scratch scratch;
   const auto path = scratch / "nowhere/a.vtu";
-  EXPECT_EQ(error_of([&] { write_vtu(path, points_with_values(1), true); }),
+  EXPECT_EQ(error_of([&] { GridEncoder(points_with_values(1), true).write(path); }),
             "cannot write " + path.string() + ": No such file or directory");
 }
 

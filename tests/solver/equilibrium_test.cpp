@@ -155,7 +155,7 @@ Swing swing_after_static_start(const std::string& curve, Outcome& outcome) {
       "[[loads]]\nwhere = { z = 4 }\ntotal_force = [0, 0, 3]\ncurve = \"c\"\n[curves.c]\npoints = " + curve +
       "\n[analysis]\ntype = \"dynamic\"\nduration = 8\nstart = \"static\"\n");
   RunPlan plan = dynamic_plan(8);
-  plan.static_start = true;
+  plan.static_start = true, plan.history_every = 0.008;
   Swing swing;
   swing.probe = &built.probes[0];
   outcome = run(built.simulation, plan, {&swing});

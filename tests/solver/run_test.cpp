@@ -40,6 +40,14 @@ TEST(Run, RowsAreDueAtTheFirstStepAtOrAfterEachMultiple) {
   EXPECT_EQ(notes.ledgers, (std::vector<long>{0, 3, 4, 5, 6, 8, 10, 11}));
 }
 
+TEST(Run, RowsAreNotDueOftenerThanEvery20StepsUnlessAskedFor) {
+  Built built = build_text(column(standing + std::string(moving) + dynamic(1)));
+  RunPlan plan = dynamic_plan(50 * built.simulation.dt);
+  Notes notes;
+  run(built.simulation, plan, {&notes});
+  EXPECT_EQ(notes.rows, (std::vector<long>{0, 20, 40, 50}));
+}
+
 TEST(Run, PicturesAreDueAtGivenInstantsToo) {
   Built built = build_text(column(standing + std::string(moving) + dynamic(1)));
   const double dt = built.simulation.dt;
