@@ -40,8 +40,8 @@ void add_loads(const std::vector<Load>& loads, Model& model, double t) {
       const ParticleForce& p = load.particles[i];
       model.lattices[p.lattice].listed_force.add(p.slot, c * p.force);
     };
-    for_each(load.nodes.size(), add_to_node, 2000);  // a load names a place once only
-    for_each(load.particles.size(), add_to_particle, 2000);
+    for_each(load.nodes.size(), add_to_node, 500);  // a load names a place once only
+    for_each(load.particles.size(), add_to_particle, 500);
   }
 }
 

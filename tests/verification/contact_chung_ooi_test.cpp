@@ -124,7 +124,7 @@ Bounce bounce(const Ball& b, double v_n, double v_t, double spin, double frictio
       moving("ball", {v_t, 0, -v_n}, {0, spin, 0}, R * (1 + gap)) +
       the_rest("ball", "plane", friction, restitution, long_enough(hertz, restitution),
                hertz.duration() / steps_per_impact);
-  Recording r = run_text(text);
+  Recording r = run_text(text, long_enough(hertz, restitution) / 1000);
   const Particle after = only_particle(r.model());
   Particle before = after;
   before.v = {v_t, 0, -v_n}, before.spin = {0, spin, 0};

@@ -213,6 +213,8 @@ type = "dynamic"
 kinematics = "finite"
 duration = 1
 balance_tolerance = 1000
+[output]
+history = { every = 0.001 }
 )",
                                     "squash.toml");
   Built built = build(input);

@@ -65,6 +65,7 @@ RunPlan plan_of(const Case& input) {
   plan.tolerance = input.analysis.tolerance;
   plan.end_time = input.analysis.duration;
   plan.max_steps = input.analysis.max_steps;
+  plan.history_every = input.output.history_every.value_or(0);
   plan.balance_tolerance = input.analysis.balance_tolerance;
   return plan;
 }
