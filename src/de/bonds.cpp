@@ -339,7 +339,7 @@ KickSums advance(Lattice& lattice, const Kick& kick, double dt) {
 }
 
 KickSums kick_listed(Lattice& lattice, const Kick& kick) {
-  return sum<KickSums>(lattice.listed.size(), [&lattice, kick](std::size_t slot) {
+  return sum<KickSums, 64>(lattice.listed.size(), [&lattice, kick](std::size_t slot) {
     KickSums sums;
     const std::size_t s = lattice.listed[slot];
     for (int c = 0; c < 6; ++c) {

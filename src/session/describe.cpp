@@ -184,14 +184,16 @@ double memory_of(const Model& model) {
            static_cast<double>(mesh.blocks.size()) * (sizeof(HexBlock) + 4);
   for (const Lattice& l : model.lattices)
     bytes += static_cast<double>(l.grid.size()) * (18 * 8 + 4) +
+             static_cast<double>(l.rotation.size()) * 9 * 8 + static_cast<double>(l.class_of.size()) * 4 +
+             static_cast<double>(l.pressure.size()) * (4 * 8 + 1) +
              static_cast<double>(l.listed.size()) * (6 * 8 + 9) +
              static_cast<double>(l.ghosts.size()) * (sizeof(Ghost) + 8 * sizeof(GhostNode));
   return bytes;
 }
 
 int worthwhile_threads(const Model& model) {
-  constexpr double particle = 20e-9, hexahedron = 150e-9,
-                   share = 200e-6;  // seconds; of a step for each thread
+  constexpr double particle = 20e-9, hexahedron = 40e-9,
+                   share = 80e-6;  // seconds; of a step for each thread
   double step = hexahedron * static_cast<double>(model.mesh.elements.size());
   for (const Lattice& l : model.lattices) step += particle * static_cast<double>(l.grid.size());
   const int processors = static_cast<int>(allowed_processors().size());

@@ -47,7 +47,7 @@ double Motion::displacement(double t) const { return kind == Kind::displacement 
 void Supports::apply(Model& model, double dt, Vec3 gravity, bool arrived) {
   velocities.resize(motions.size());
   for (std::size_t m = 0; m < motions.size(); ++m) velocities[m] = motions[m].velocity(model.time, dt);
-  const double done = sum<double>(held.size(), [this, &model, dt, gravity](std::size_t i) {
+  const double done = sum<double, 64>(held.size(), [this, &model, dt, gravity](std::size_t i) {
     HeldComponent& h = held[i];
     const double after = velocities[h.motion], before = h.velocity;
     const double acceleration = (after - before) / dt - (h.component < 3 ? gravity[h.component] : 0);
