@@ -18,7 +18,10 @@ struct Options {
   Effort effort{0, 0};
   int threads = 0;
   std::vector<int> edges;
-  std::vector<std::string> subjects{"lattice", "one-point", "assumed-strain", "selective-reduced", "full"};
+  std::vector<std::string> subjects{
+      "lattice",          "lattice+finite",       "lattice+consistent", "lattice+consistent+finite",
+      "one-point",        "assumed-strain",       "selective-reduced",  "full",
+      "one-point+finite", "assumed-strain+finite"};
   std::string out;
 };
 
