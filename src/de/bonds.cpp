@@ -1,66 +1,14 @@
 #include "de/bonds.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <type_traits>
 
 #include "core/parallel.hpp"
 #include "de/drift.hpp"
-#include "de/finite_stencil.hpp"
-#include "de/stencil.hpp"
+#include "de/methods.hpp"
 
 namespace geist::de {
 namespace {
-
-/// The bonds of published lattices: the same everywhere.
-struct Published {
-  ElasticBond inner;
-
-  explicit Published(const Lattice& lattice) : inner(ElasticBond::from(lattice.material, lattice.radius())) {}
-  template <class T = Pack>
-  GEIST_INLINE const ElasticBond& at(std::size_t) const {
-    return inner;
-  }
-  /// visit(law) with the bonds of eight sites.
-  template <class Visit>
-  GEIST_INLINE void visit(std::size_t, Visit visit_law) const {
-    visit_law(inner);
-  }
-};
-
-/// The bonds of consistent lattices: those of the endless lattice, or by the sites' classes.
-struct Consistent {
-  static constexpr std::uint32_t none = ~0u;
-  EndlessBond inner;
-  const BondClass* classes;
-  const std::uint32_t *class_of, *word;
-
-  explicit Consistent(const Lattice& lattice)
-      : inner(EndlessBond::from(lattice.material, lattice.radius())),
-        classes(lattice.classes.data()),
-        class_of(lattice.class_of.data()),
-        word(lattice.word.data()) {}
-  template <class T = Pack>
-  GEIST_INLINE ClassBonds<T> at(std::size_t s) const {
-    return {inner, classes, class_of + s};
-  }
-  /// Most packs have one class, at ends of rows two: those of their first and last sites.
-  template <class Visit>
-  GEIST_INLINE void visit(std::size_t s, Visit visit_law) const {
-    std::uint32_t first = none, last = none;
-    bool others = false;
-    for (std::size_t l = s; l < s + lanes; ++l)
-      if (word[l]) last = class_of[l], first = first == none ? last : first;
-    for (std::size_t l = s; l < s + lanes; ++l)
-      others |= word[l] != 0 && class_of[l] != first && class_of[l] != last;
-    if (others)
-      visit_law(at(s));
-    else if (first == last)
-      visit_law(ClassBonds<double>(inner, classes, &first));
-    else
-      visit_law(TwoClassBonds{inner, classes + first, classes + last, load(class_of + s) == last});
-  }
-};
 
 /// And with pressures of cells and skins; skins are at the surface only.
 struct Dilating : Consistent, Pressures {
@@ -174,40 +122,6 @@ RowKernel<Method, View> row_kernel(const Method& method, const View& motion, Lat
   return k;
 }
 
-/// Half the energy of every bond of the eight sites at s.
-template <class Method, class View>
-struct SiteEnergies {
-  View motion;
-  const std::uint32_t* word;
-  std::ptrdiff_t offset[18];
-  Method method;
-  double r;
-
-  SiteEnergies(const Method& bonds, const View& view, const Lattice& lattice)
-      : motion(view), word(lattice.word.data()), method(bonds), r(lattice.radius()) {
-    for (int d = 0; d < 18; ++d) offset[d] = lattice.grid.offset(d);
-  }
-
-  Pack at(std::size_t s) const {
-    const SomeBonds bonds{load(word + s)};
-    const auto& law = method.at(s);
-    Pack energy = {};
-    [&]<int... D>(std::integer_sequence<int, D...>) {
-      ((energy = energy + bonds.keep<D>(bond_energy<D, Pack>(motion, s, offset[D], law, r))), ...);
-    }
-    (std::make_integer_sequence<int, 18>{});
-    return 0.5 * energy;
-  }
-
-  /// Energy of a ghost's bond in direction D if there is a ghost at its end too.
-  template <int D>
-  double between_ghosts(const Lattice& lattice, std::size_t s) const {
-    const std::size_t other = s + offset[D];
-    if (!(word[s] >> D & 1) || !lattice.is(other, site::ghost)) return 0;
-    return bond_energy<D, double>(motion, s, offset[D], method.template at<double>(s), r);
-  }
-};
-
 struct NoDrift {
   GEIST_INLINE void operator()(std::size_t) const {}
 };
@@ -267,45 +181,6 @@ KickSums run(const Kernel& kernel, const Drift& drift, Lattice& lattice) {
   return total;
 }
 
-/// Energy of the bonds between two ghosts.
-template <class Energy>
-double energy_between_ghosts(const Energy& energy, const Lattice& lattice) {
-  double twice = 0;
-  for (const Ghost& ghost : lattice.ghosts) [&]<int... D>(std::integer_sequence<int, D...>) {
-      ((twice += energy.template between_ghosts<D>(lattice, ghost.site)), ...);
-    }
-  (std::make_integer_sequence<int, 18>{});
-  return 0.5 * twice;
-}
-
-template <class Energy>
-BondEnergies add_up(const Energy& energy, const Lattice& lattice) {
-  // A bond of a particle and a ghost has half of its energy at either; between two ghosts all of it is at
-  // ghosts, any other's is at particles.
-  BondEnergies total = sum<BondEnergies>(lattice.grid.size() / lanes, [energy](std::size_t pack) {
-    const Pack e = energy.at(lanes * pack);
-    BondEnergies sums;
-    for (int l = 0; l < lanes; ++l) {
-      const bool ghost = energy.word[lanes * pack + l] & site::ghost;
-      sums.bonds += ghost ? -e[l] : e[l];
-      sums.coupling += ghost ? 2 * e[l] : 0;
-    }
-    return sums;
-  });
-  const double between_ghosts = energy_between_ghosts(energy, lattice);
-  return total += {between_ghosts, -between_ghosts};
-}
-
-/// f(method, view) with those of the lattice.
-template <class F>
-auto with_kinematics(const Lattice& lattice, F f) {
-  const auto with_view = [&](const auto& method) {
-    return lattice.kinematics == Kinematics::finite ? f(method, finite_view(lattice))
-                                                    : f(method, view(lattice.motion));
-  };
-  return lattice.consistent() ? with_view(Consistent(lattice)) : with_view(Published(lattice));
-}
-
 }  // namespace
 
 KickSums bond_forces_and_kick(Lattice& lattice, const Kick& kick) {
@@ -353,32 +228,6 @@ KickSums kick_listed(Lattice& lattice, const Kick& kick) {
     }
     return sums;
   });
-}
-
-BondEnergies energies(const Lattice& lattice) {
-  const BondEnergies bonds = with_kinematics(lattice, [&](const auto& method, const auto& motion) {
-    return add_up(SiteEnergies(method, motion, lattice), lattice);
-  });
-  return lattice.dilates() ? dilatation_energies(lattice) += bonds : bonds;
-}
-
-std::vector<double> site_energies(const Lattice& lattice) {
-  return with_kinematics(lattice, [&](const auto& method, const auto& motion) {
-    const SiteEnergies energy(method, motion, lattice);
-    std::vector<double> energies(lattice.grid.size());
-    const auto store_pack = [energy, out = energies.data()](std::size_t pack) {
-      store(out + lanes * pack, energy.at(lanes * pack));
-    };
-    for_each(energies.size() / lanes, store_pack, 128);
-    if (lattice.dilates()) add_dilatation_energies(lattice, energies);
-    return energies;
-  });
-}
-
-std::size_t bond_count(const Lattice& lattice) {
-  std::size_t twice = 0;
-  for (const std::uint32_t w : lattice.word) twice += std::popcount(w & site::bonds);
-  return twice / 2;
 }
 
 }  // namespace geist::de
