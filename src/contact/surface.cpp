@@ -5,23 +5,12 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "core/disjoint_sets.hpp"
 #include "geometry/facets.hpp"
 #include "geometry/hex8.hpp"
 #include "geometry/triangle.hpp"
 
 namespace geist::contact {
 namespace {
-
-/// Number of the body (elements joined by nodes) of every element.
-std::vector<std::int32_t> bodies_of(const Mesh& mesh) {
-  DisjointSets sets(mesh.nodes());
-  for (const auto& nodes : mesh.elements)
-    for (const std::int32_t node : nodes) sets.join(nodes[0], node);
-  std::vector<std::int32_t> body;
-  for (const auto& nodes : mesh.elements) body.push_back(static_cast<std::int32_t>(sets.of(nodes[0])));
-  return body;
-}
 
 /// Whether this facet of a region is a lattice's interface: its ghosts ride there, and its particles touch it
 /// at rest.
@@ -129,7 +118,7 @@ Surface make_surface(const Model& model, const std::vector<std::uint8_t>& wanted
     for (int k = 0; k < 4; ++k) corner[k] = mesh.points[exterior.node[k]];
     if (at_interface(region, corner)) continue;
     SurfaceFacet facet = make_facet(mesh, exterior);
-    facet.region = region, facet.body = body[exterior.element];
+    facet.region = region, facet.body = body[exterior.node[0]];
     surface.facets.push_back(facet);
   }
   number_nodes(surface, mesh.nodes());

@@ -4,6 +4,8 @@
 #include <bit>
 #include <numeric>
 
+#include "core/disjoint_sets.hpp"
+
 namespace geist {
 namespace {
 
@@ -74,6 +76,15 @@ const HexCut* cut_of(const Mesh& mesh, std::size_t element) {
   const auto it = std::lower_bound(mesh.cuts.begin(), mesh.cuts.end(), e,
                                    [](const HexCut& cut, std::int32_t i) { return cut.element < i; });
   return it != mesh.cuts.end() && it->element == e ? &*it : nullptr;
+}
+
+std::vector<std::int32_t> bodies_of(const Mesh& mesh) {
+  DisjointSets sets(mesh.nodes());
+  for (const auto& element : mesh.elements)
+    for (const std::int32_t node : element) sets.join(element[0], node);
+  std::vector<std::int32_t> body(mesh.nodes());
+  for (std::size_t i = 0; i < body.size(); ++i) body[i] = static_cast<std::int32_t>(sets.of(i));
+  return body;
 }
 
 Sweep make_sweep(const Mesh& mesh, const std::vector<std::int32_t>& blocks) {

@@ -105,6 +105,9 @@ const HexCut* cut_of(const Mesh& mesh, std::size_t element);
 /// Number of the region that an element belongs to.
 std::int32_t region_of(const Mesh& mesh, std::int32_t element);
 
+/// By node, a number of the body that elements join it to.
+std::vector<std::int32_t> bodies_of(const Mesh& mesh);
+
 /// A sweep over blocks given by number in ascending order.
 Sweep make_sweep(const Mesh& mesh, const std::vector<std::int32_t>& blocks);
 

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/disjoint_sets.hpp"
 #include "solver/subcycling.hpp"
 
 namespace geist {
@@ -66,17 +65,6 @@ double time_of_a_short_step(const Mesh& mesh, const FinePart& fine) {
   return time;
 }
 
-/// Which nodes elements join to one body, by a number of each body.
-std::vector<std::size_t> bodies_of(const Mesh& mesh) {
-  DisjointSets sets(mesh.nodes());
-  for (const auto& element : mesh.elements)
-    for (const std::int32_t i : element)
-      sets.join(static_cast<std::size_t>(element[0]), static_cast<std::size_t>(i));
-  std::vector<std::size_t> body(mesh.nodes());
-  for (std::size_t i = 0; i < body.size(); ++i) body[i] = sets.of(i);
-  return body;
-}
-
 class Search {
  public:
   Search(const Model& model, const TimeStepLimits& limits, double safety)
@@ -95,8 +83,9 @@ class Search {
     FinePart fine{substeps_for(dt), {}, {}, {}};
     if (fine.m == 0 || dt > longest_ * (1 + 1e-12)) return {};
     fine.is_fine = fine_nodes(dt);
+    const double remainder = stable_remainder(fine.m);
     for (std::size_t i = 0; i < mesh_.nodes(); ++i)
-      if (fine.is_fine[i] && !can_be_fine(i, dt, fine.m)) return {};
+      if (fine.is_fine[i] && !can_be_fine(i, dt, remainder)) return {};
     list_blocks(mesh_, fine);
     return fine;
   }
@@ -147,14 +136,14 @@ class Search {
     return fine;
   }
 
-  bool can_be_fine(std::size_t node, double dt, int m) const {
-    return !at_.viscous[node] && at_.of_others[node] * dt * dt <= stable_remainder(m);
+  bool can_be_fine(std::size_t node, double dt, double remainder) const {
+    return !at_.viscous[node] && at_.of_others[node] * dt * dt <= remainder;
   }
 
   const Mesh& mesh_;
   const NodeLimits& at_;
   double safety_, whole_;
-  std::vector<std::size_t> body_;
+  std::vector<std::int32_t> body_;
   double fastest_;                                            ///< ω of any node
   double one_;                                                ///< step if all take the same
   double longest_ = std::numeric_limits<double>::infinity();  ///< step that the lattices allow
