@@ -120,27 +120,47 @@ struct EndlessBond : Bending {
   }
 };
 
-/// Bonds of the one site, or eight sites, whose classes these are.
-template <class T>
-struct ClassBonds : Bending {
-  static constexpr int count = sizeof(T) / sizeof(double);
-  const BondClass* of[count];
-
-  ClassBonds(const Bending& bending, const BondClass* classes, const std::uint32_t* class_of)
-      : Bending(bending) {
-    for (int l = 0; l < count; ++l) of[l] = classes + class_of[l];
+/// Bonds by classes: Self::pick<D>(member) is what the classes of one site, or eight sites, have there.
+template <class Self, class T>
+struct PickedBonds : Bending {
+  explicit PickedBonds(const Bending& bending) : Bending(bending) {}
+  template <int D>
+  GEIST_INLINE T shear() const {
+    return of_class<D>(&BondClass::shear);
+  }
+  template <int D>
+  GEIST_INLINE T along() const {
+    return of_class<D>(&BondClass::along);
   }
   /// Ghosts at the edge of what is counted have bonds that do not bend.
   template <int D>
   GEIST_INLINE T turn(int c) const {
-    return Bending::turn<D>(c) * gather<D>(&BondClass::bends);
+    return Bending::turn<D>(c) * of_class<D>(&BondClass::bends);
   }
   template <int D>
   GEIST_INLINE T column(int c) const {
-    return Bending::column<D>(c) * gather<D>(&BondClass::bends);
+    return Bending::column<D>(c) * of_class<D>(&BondClass::bends);
+  }
+
+ private:
+  template <int D>
+  GEIST_INLINE T of_class(const std::array<double, 18> BondClass::*member) const {
+    return static_cast<const Self&>(*this).template pick<D>(member);
+  }
+};
+
+/// Bonds of the one site, or eight sites, whose classes these are.
+template <class T>
+struct ClassBonds : PickedBonds<ClassBonds<T>, T> {
+  static constexpr int count = sizeof(T) / sizeof(double);
+  const BondClass* of[count];
+
+  ClassBonds(const Bending& bending, const BondClass* classes, const std::uint32_t* class_of)
+      : PickedBonds<ClassBonds, T>(bending) {
+    for (int l = 0; l < count; ++l) of[l] = classes + class_of[l];
   }
   template <int D>
-  GEIST_INLINE T gather(const std::array<double, 18> BondClass::*member) const {
+  GEIST_INLINE T pick(const std::array<double, 18> BondClass::*member) const {
     if constexpr (std::is_same_v<T, double>) {
       return (of[0]->*member)[D];
     } else {
@@ -149,40 +169,19 @@ struct ClassBonds : Bending {
       return k;
     }
   }
-  template <int D>
-  GEIST_INLINE T shear() const {
-    return gather<D>(&BondClass::shear);
-  }
-  template <int D>
-  GEIST_INLINE T along() const {
-    return gather<D>(&BondClass::along);
-  }
 };
 
 /// Bonds of eight sites that are of two classes, which are read once for all.
-struct TwoClassBonds : Bending {
+struct TwoClassBonds : PickedBonds<TwoClassBonds, Pack> {
   const BondClass *first, *second;
   PackInt is_second;  ///< −1 or 0
+
+  TwoClassBonds(const Bending& bending, const BondClass* a, const BondClass* b, PackInt is_b)
+      : PickedBonds(bending), first(a), second(b), is_second(is_b) {}
 
   template <int D>
   GEIST_INLINE Pack pick(const std::array<double, 18> BondClass::*member) const {
     return select(is_second, broadcast((second->*member)[D]), broadcast((first->*member)[D]));
-  }
-  template <int D>
-  GEIST_INLINE Pack turn(int c) const {
-    return Bending::turn<D>(c) * pick<D>(&BondClass::bends);
-  }
-  template <int D>
-  GEIST_INLINE Pack column(int c) const {
-    return Bending::column<D>(c) * pick<D>(&BondClass::bends);
-  }
-  template <int D>
-  GEIST_INLINE Pack shear() const {
-    return pick<D>(&BondClass::shear);
-  }
-  template <int D>
-  GEIST_INLINE Pack along() const {
-    return pick<D>(&BondClass::along);
   }
 };
 
