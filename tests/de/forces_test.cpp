@@ -86,28 +86,8 @@ TEST(BondForces, KeepMomentumAndAngularMomentum) {
 }
 
 TEST(BondForces, AreMinusTheDerivativesOfTheEnergy) {
-  for (const auto& n : {std::array{9, 1, 3}, std::array{5, 4, 3}}) {
-    Lattice lattice = random_lattice(n, 31);
-    move_at_random(lattice, 32);
-    const Loads6 f = kernel_forces(lattice);
-    const auto energy = [&] {
-      const BondEnergies e = energies(lattice);
-      return e.bonds + e.coupling;
-    };
-    const double total = energy(),
-                 h = 0.25;  // the energy is quadratic: differences are exact but for rounding
-    for (std::size_t s = 0; s < lattice.grid.size(); ++s)
-      for (int c = 0; lattice.word[s] && c < 6; ++c) {
-        double& q = lattice.motion[c][s];
-        const double here = q;
-        q = here + h;
-        const double up = energy();
-        q = here - h;
-        const double down = energy();
-        q = here;
-        EXPECT_NEAR(c < 3 ? f.force[s][c] : f.moment[s][c - 3], -(up - down) / (2 * h), 1e-13 * total / h);
-      }
-  }
+  for (const auto& n : {std::array{9, 1, 3}, std::array{5, 4, 3}})
+    expect_forces_of_the_energy(random_lattice(n, 31));
 }
 
 TEST(BondForces, VanishInRigidMotion) {

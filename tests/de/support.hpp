@@ -64,6 +64,9 @@ Literal literal(const Lattice& lattice);
 /// What the kernel makes of the present motion; velocities are overwritten.
 Loads6 kernel_forces(Lattice& lattice);
 
+/// Moved at random, a lattice of small rotations has forces that are minus the derivatives of its energy.
+void expect_forces_of_the_energy(Lattice lattice);
+
 /// The shapes that tests go over: rows shorter and longer than a Pack, single rows, single sites.
 inline constexpr std::array<std::array<int, 3>, 8> shapes{
     {{1, 1, 1}, {2, 2, 2}, {9, 1, 3}, {8, 3, 3}, {1, 7, 2}, {5, 4, 3}, {26, 4, 4}, {17, 1, 1}}};

@@ -10,25 +10,9 @@ namespace {
 
 using namespace testing;
 
-template <class List>
-struct AsTypes;
-template <class... F>
-struct AsTypes<FormulationList<F...>> {
-  using type = ::testing::Types<F...>;
-};
-
 template <class F>
 struct Formulation : ::testing::Test {};
-struct Name {
-  template <class F>
-  static std::string GetName(int) {
-    std::string name(F::name);
-    for (char& c : name)
-      if (c == '-') c = '_';
-    return name;
-  }
-};
-TYPED_TEST_SUITE(Formulation, AsTypes<Formulations>::type, Name);
+TYPED_TEST_SUITE(Formulation, EveryFormulation, FormulationName);
 
 const Corners<double> rest{};
 

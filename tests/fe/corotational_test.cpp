@@ -15,24 +15,9 @@ namespace {
 
 using namespace testing;
 
-template <class List>
-struct AsTypes;
-template <class... F>
-struct AsTypes<FormulationList<F...>> {
-  using type = ::testing::Types<F...>;
-};
 template <class F>
 struct CorotationalOf : ::testing::Test {};
-struct Name {
-  template <class F>
-  static std::string GetName(int) {
-    std::string name(F::name);
-    for (char& c : name)
-      if (c == '-') c = '_';
-    return name;
-  }
-};
-TYPED_TEST_SUITE(CorotationalOf, AsTypes<Formulations>::type, Name);
+TYPED_TEST_SUITE(CorotationalOf, EveryFormulation, FormulationName);
 
 /// A formulation that turns with the element, compiled once.
 template <class F>

@@ -1,8 +1,11 @@
 // What the tests of elements share: elements of several shapes, meshes of a box, literal reference matrices.
 // Include it before any header of Eigen, as fe/stiffness.hpp sets how Eigen computes.
 #pragma once
+#include <gtest/gtest.h>
+
 #include <functional>
 #include <random>
+#include <string>
 
 #include "fe/elements.hpp"
 #include "fe/formulations.hpp"
@@ -13,6 +16,25 @@
 #include <Eigen/SparseCholesky>
 
 namespace geist::fe::testing {
+
+/// The formulations as a list of types for typed tests, and their names there.
+template <class List>
+struct AsTypes;
+template <class... F>
+struct AsTypes<FormulationList<F...>> {
+  using type = ::testing::Types<F...>;
+};
+using EveryFormulation = AsTypes<Formulations>::type;
+
+struct FormulationName {
+  template <class F>
+  static std::string GetName(int) {
+    std::string name(F::name);
+    for (char& c : name)
+      if (c == '-') c = '_';
+    return name;
+  }
+};
 
 inline constexpr Parameters steel_like{1.7, 1.1, 2.3, 0.05};
 
