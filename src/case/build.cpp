@@ -75,8 +75,12 @@ void check_memory(const Case& input) {
   constexpr double gibi = 1024.0 * 1024 * 1024;
   const bool solves = input.analysis.type == "static" || input.analysis.start == "static";
   const double rotation = input.analysis.kinematics == "finite" ? 72 : 0;
+  const bool mixed = std::any_of(input.regions.begin(), input.regions.end(), [](const RegionSpec& spec) {
+    return std::holds_alternative<HexahedraSpec>(spec.shape);
+  });
+  const double short_steps = mixed && input.analysis.subcycling ? 18 * 8 + rotation : 0;
   const double element = solves ? 1300 : 1000,
-               particle = (solves ? 550 : 250) + rotation;  // bytes at most, measured
+               particle = (solves ? 550 : 250) + rotation + short_steps;  // bytes at most, measured
   const double there =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   double needed = 0;
@@ -206,7 +210,7 @@ void subcycle(Built& built, const TimeStepLimits& limits, double safety) {
   const Division division = best_division(sim.model, limits, safety);
   if (division.fine.empty()) return;
   sim.dt = division.dt;
-  sim.subcycling = Subcycling(sim.model.mesh, division.fine);
+  sim.subcycling = Subcycling(sim.model, division.fine);
   built.expected_gain = division.gain;
 }
 

@@ -117,8 +117,9 @@ struct AnalysisSpec {
   long max_steps = 10'000'000;
   double safety = 0.9;              ///< time step / safe bound
   std::optional<double> time_step;  ///< overrides the above; must not exceed the bound
-  bool subcycling = false;          ///< dynamic: small elements take shorter steps, unless time_step is given
-  double damping = 0;               ///< α of f = −α m v, 1/time; dynamic only
+  bool subcycling =
+      false;           ///< dynamic: what limits the step may take shorter ones, unless time_step is given
+  double damping = 0;  ///< α of f = −α m v, 1/time; dynamic only
   double balance_tolerance = 0.05;  ///< stop when the energy balance leaves this share of the energies' sum
   Source source;
 };

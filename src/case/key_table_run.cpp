@@ -182,8 +182,8 @@ std::vector<Key> analysis_steps() {
           .above(0),
       boolean(
           "subcycling",
-          "Small elements take shorter steps than the rest, where that saves time and no time_step is given; "
-          "Geist finds out which and how many.")
+          "Small elements, or the lattices with what their ghosts ride on, take shorter steps than the rest, "
+          "where that saves time and no time_step is given; Geist finds out which and how many.")
           .otherwise("true", "false")
           .when(dynamic),
       number("damping", "1/time", "Viscous damping proportional to mass: f = −damping·m·v.")

@@ -2,6 +2,7 @@
 #pragma once
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdlib>
@@ -76,6 +77,19 @@ void clear(Field<N>& f) {
   for (int c = 0; c < N; ++c)
     for_each(
         f.size(), [p = f[c]](std::size_t i) { p[i] = 0; }, 1 << 14);
+}
+
+/// Both have the same size; guards stay as they are.
+template <int N>
+void copy(const Field<N>& from, Field<N>& to) {
+  constexpr std::size_t block = 1024;
+  const std::size_t n = from.size();
+  for (int c = 0; c < N; ++c)
+    for_each((n + block - 1) / block,
+             [=, x = from[c], y = to[c]](std::size_t b) {
+               std::copy(x + b * block, x + std::min(n, (b + 1) * block), y + b * block);
+             },
+             8);
 }
 
 }  // namespace geist

@@ -28,9 +28,9 @@ struct Phase {
 
 struct TimeStep {
   double value = 0, bound = 0;
-  std::string limited_by;          ///< region and reason, in words
-  int substeps = 1;                ///< short steps in each for what is subcycled
-  std::size_t fine_hexahedra = 0;  ///< subcycled
+  std::string limited_by;  ///< region and reason, in words
+  int substeps = 1;        ///< short steps in each for what is subcycled
+  std::size_t fine_hexahedra = 0, fine_particles = 0;
 };
 
 struct Convergence {

@@ -54,9 +54,10 @@ std::string regions(const Built& built, const output::UnitSystem& units) {
   for (std::size_t r = 0; r < masses.size(); ++r) text += hex_region(model.mesh.regions[r], masses[r], units);
   for (const Lattice& lattice : model.lattices) text += lattice_region(lattice, units);
   const output::Counts n = output::count(model);
-  text += fmt::format(
-      "  in all       {} nodes, {} degrees of freedom, {}\n", with_commas(static_cast<long long>(n.nodes)),
-      with_commas(static_cast<long long>(n.degrees_of_freedom)), output::human_bytes(memory_of(model)));
+  text += fmt::format("  in all       {} nodes, {} degrees of freedom, {}\n",
+                      with_commas(static_cast<long long>(n.nodes)),
+                      with_commas(static_cast<long long>(n.degrees_of_freedom)),
+                      output::human_bytes(memory_of(built.simulation)));
   return text;
 }
 
@@ -94,8 +95,9 @@ std::string short_steps(const Built& built, const output::UnitSystem& units) {
   const Simulation& sim = built.simulation;
   if (sim.subcycling.empty()) return "";
   return fmt::format(
-      "  {:<12} {} short steps of {:.6g} {} for {} of {} hexahedra; expected to be {:.2f} times as fast\n",
+      "  {:<12} {} short steps of {:.6g} {} for {}{} of {} hexahedra; expected to be {:.2f} times as fast\n",
       "subcycling", sim.subcycling.ratio(), sim.dt / sim.subcycling.ratio(), units.time().name,
+      sim.subcycling.lattices() ? "all particles and " : "",
       with_commas(static_cast<long long>(fine_hexahedra(sim))),
       with_commas(static_cast<long long>(sim.model.mesh.elements.size())), built.expected_gain);
 }
@@ -177,16 +179,18 @@ std::size_t fine_hexahedra(const Simulation& sim) {
   return n;
 }
 
-double memory_of(const Model& model) {
-  const Mesh& mesh = model.mesh;
+double memory_of(const Simulation& sim) {
+  const Mesh& mesh = sim.model.mesh;
   double bytes = static_cast<double>(mesh.nodes()) * (3 * 8 * 6 + 8 + 1);
   bytes += static_cast<double>(mesh.elements.size()) * (8 * 4) +
            static_cast<double>(mesh.blocks.size()) * (sizeof(HexBlock) + 4);
-  for (const Lattice& l : model.lattices)
-    bytes += static_cast<double>(l.grid.size()) * (18 * 8 + 4) +
-             static_cast<double>(l.rotation.size()) * 9 * 8 + static_cast<double>(l.class_of.size()) * 4 +
+  const int short_steps = sim.subcycling.lattices() ? 1 : 0;
+  for (const Lattice& l : sim.model.lattices)
+    bytes += static_cast<double>(l.grid.size()) * (18 * 8 * (1 + short_steps) + 4) +
+             static_cast<double>(l.rotation.size()) * 9 * 8 * (1 + short_steps) +
+             static_cast<double>(l.class_of.size()) * 4 +
              static_cast<double>(l.pressure.size()) * (4 * 8 + 1) +
-             static_cast<double>(l.listed.size()) * (6 * 8 + 9) +
+             static_cast<double>(l.listed.size()) * (6 * 8 * (1 + 2 * short_steps) + 9) +
              static_cast<double>(l.ghosts.size()) * (sizeof(Ghost) + 8 * sizeof(GhostNode));
   return bytes;
 }

@@ -17,8 +17,8 @@ output::UnitSystem units_of(const Case& input);
 /// Hexahedra that take short steps.
 std::size_t fine_hexahedra(const Simulation& sim);
 
-/// Bytes that the model's arrays take.
-double memory_of(const Model& model);
+/// Bytes that the arrays of the model and of its short steps take.
+double memory_of(const Simulation& sim);
 
 /// Threads that pay off for a model of this size on this machine: a step much shorter than the wake-up of
 /// threads (which other programs on the machine lengthen a hundredfold) is better done by one.

@@ -224,8 +224,12 @@ output::RunSummary summarise(const Case& input, const ExecuteOptions& options, c
   s.ledger = outcome.last.ledger;
   s.counts = output::count(sim.model);
   const TimeStepBound& least = critical(built.bounds);
-  s.time_step = {sim.dt, least.bound, fmt::format("region '{}': {}", least.region, least.limit),
-                 sim.subcycling.ratio(), fine_hexahedra(sim)};
+  s.time_step = {sim.dt,
+                 least.bound,
+                 fmt::format("region '{}': {}", least.region, least.limit),
+                 sim.subcycling.ratio(),
+                 fine_hexahedra(sim),
+                 sim.subcycling.lattices() ? s.counts.particles : 0};
   s.steps = sim.model.step, s.time = sim.model.time;
   if (input.analysis.type == "quasi-static")
     s.quasi_static = output::Convergence{outcome.last.residual, input.analysis.tolerance,

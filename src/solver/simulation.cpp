@@ -24,18 +24,6 @@ de::Kick for_lattice(de::Kick kick, const Lattice& lattice) {
   return kick;
 }
 
-template <int N>
-void copy(const Field<N>& from, Field<N>& to) {
-  constexpr std::size_t block = 1024;
-  const std::size_t n = from.size();
-  for (int c = 0; c < N; ++c)
-    for_each((n + block - 1) / block,
-             [=, x = from[c], y = to[c]](std::size_t b) {
-               std::copy(x + b * block, x + std::min(n, (b + 1) * block), y + b * block);
-             },
-             8);
-}
-
 /// before ← 2 before − after: the mirror image of `after` about `before`.
 template <int N>
 void reflect(Field<N>& before, const Field<N>& after) {
@@ -56,7 +44,7 @@ void Simulation::step(bool observe) {
   {
     const auto timing = timers.time(Phase::drift);  // u^{n+1} = u^n + Δt v^{n+1/2}
     drift(model.mesh, dt);
-    if (!contacts.empty())  // they are found between the lattices' drift and their kick
+    if (lattices_drift_apart())
       for (Lattice& lattice : model.lattices) de::drift(lattice, dt);
     model.time = static_cast<double>(++model.step) * dt;
   }
@@ -109,14 +97,18 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   }
   {
     const auto timing = timers.time(Phase::lattice);
-    const bool drifted = !arrived || !contacts.empty();
+    const bool drifted = !arrived || lattices_drift_apart();
     for (Lattice& lattice : model.lattices) {  // (19)–(23), (3)–(5), (13); then (15)(17)(18), (24)(26)(27)
       const de::Kick own = for_lattice(kick, lattice);
-      sums +=
-          weighted(drifted ? de::bond_forces_and_kick(lattice, own) : de::advance(lattice, own, dt), lattice);
+      if (subcycling.lattices())
+        clear(lattice.listed_force);
+      else
+        sums += weighted(drifted ? de::bond_forces_and_kick(lattice, own) : de::advance(lattice, own, dt),
+                         lattice);
     }
   }
-  complete_node_forces(g);
+  complete_node_forces();
+  sums += short_steps(kick, g);
   {
     const auto timing = timers.time(Phase::nodes);
     sums += kick_nodes(model.mesh, kick);  // (16)(25)
@@ -129,6 +121,9 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   account_damping(power, arrived);
 }
 
+/// Contacts are found, and short steps taken, between the lattices' drift and their kick.
+bool Simulation::lattices_drift_apart() const { return !contacts.empty() || subcycling.lattices(); }
+
 /// Those of fine elements wait until all others are known.
 double Simulation::elements_forces() {
   if (subcycling.empty()) return fe::internal_forces(model.mesh);
@@ -136,16 +131,23 @@ double Simulation::elements_forces() {
   return fe::add_internal_forces(model.mesh, subcycling.others(), 1);
 }
 
-void Simulation::complete_node_forces(Vec3 g) {
-  {
-    const auto timing = timers.time(Phase::nodes);
-    reactions.add(model);                 // (14)
-    add_loads(loads, model, model.time);  // f^res of (1)(2)
-    contacts.add_to_nodes(model.mesh);
-  }
-  if (subcycling.empty()) return;
-  const auto timing = timers.time(Phase::elements);
-  subcycling.add_mean_forces(model.mesh, g, dt);
+void Simulation::complete_node_forces() {
+  const auto timing = timers.time(Phase::nodes);
+  if (!subcycling.lattices()) reactions.add(model);  // (14)
+  add_loads(loads, model, model.time);               // f^res of (1)(2)
+  contacts.add_to_nodes(model.mesh);
+}
+
+/// What is fine, once all other forces are known; kicks the particles in it.
+de::KickSums Simulation::short_steps(const de::Kick& kick, Vec3 g) {
+  de::KickSums sums;
+  if (subcycling.empty()) return sums;
+  subcycling.add_mean_forces(model, reactions, g, dt, timers);
+  if (!subcycling.lattices()) return sums;
+  const auto timing = timers.time(Phase::lattice);
+  for (std::size_t l = 0; l < model.lattices.size(); ++l)
+    sums += weighted(subcycling.kick(l, model.lattices[l], kick, dt), model.lattices[l]);
+  return sums;
 }
 
 /// Trapezoidal rule on Σ α m v². Hourglass control is reckoned with v^{n−½}, so that its work over the step

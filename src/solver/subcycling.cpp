@@ -54,8 +54,9 @@ double stable_remainder(int m) {
                 : 2 - 2 / Chebyshev(m).T.back();  // from 2 (1 + 1/T_m(δ)), where resonances would be, to 4
 }
 
-Subcycling::Subcycling(const Mesh& mesh, const FinePart& part) {
+Subcycling::Subcycling(const Model& model, const FinePart& part) {
   if (part.empty()) return;
+  const Mesh& mesh = model.mesh;
   steps_ = substeps(part.m);
   fine_ = make_sweep(mesh, part.blocks), others_ = make_sweep(mesh, part.others);
   for (const std::int32_t b : part.blocks)
@@ -66,18 +67,33 @@ Subcycling::Subcycling(const Mesh& mesh, const FinePart& part) {
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
   for (const std::int32_t i : nodes_) still_.push_back(part.is_fine[i] ? mesh.held[i] : 0b111);
   for (Field<3>* field : {&u_, &rest_, &increment_, &mean_}) *field = Field<3>(nodes_.size());
+  if (part.lattices)
+    for (const Lattice& lattice : model.lattices) lattices_.emplace_back(lattice);
 }
 
-void Subcycling::add_mean_forces(Mesh& mesh, Vec3 gravity, double dt) {
-  begin(mesh);
-  for (const Substep& step : steps_) {
-    fe::add_internal_forces(mesh, fine_, 1);
-    move(mesh, step, gravity, dt);
+void Subcycling::add_mean_forces(Model& model, const coupling::Reactions& reactions, Vec3 gravity, double dt,
+                                 Timers& timers) {
+  begin(model, timers);
+  for (const Substep& step : steps_) {  // each as Simulation::step, but for what is fine alone
+    if (&step != steps_.data()) drift_lattices(model, timers);
+    {
+      const auto timing = timers.time(Phase::elements);
+      fe::add_internal_forces(model.mesh, fine_, 1);
+    }
+    {
+      const auto timing = timers.time(Phase::lattice);
+      kick_lattices(model, step, gravity, dt);
+    }
+    const auto timing = timers.time(Phase::nodes);
+    if (lattices()) reactions.add(model);
+    kick_and_drift(model.mesh, step, gravity, dt);
   }
-  end(mesh);
+  end(model, timers);
 }
 
-void Subcycling::begin(Mesh& mesh) {
+void Subcycling::begin(Model& model, Timers& timers) {
+  const auto timing = timers.time(Phase::nodes);
+  Mesh& mesh = model.mesh;
   for_each(
       nodes_.size(),
       [this, &mesh](std::size_t n) {
@@ -86,10 +102,32 @@ void Subcycling::begin(Mesh& mesh) {
         mesh.f.set(i, {});
       },
       grain);
+  for (std::size_t l = 0; l < lattices_.size(); ++l) lattices_[l].begin(model.lattices[l]);
 }
 
-/// Takes the forces of the fine blocks from mesh.f, which is zero again then.
-void Subcycling::move(Mesh& mesh, const Substep& step, Vec3 gravity, double dt) {
+/// And their ghosts with the nodes, which have drifted already.
+void Subcycling::drift_lattices(Model& model, Timers& timers) {
+  for (std::size_t l = 0; l < lattices_.size(); ++l) {
+    {
+      const auto timing = timers.time(Phase::drift);
+      lattices_[l].drift(model.lattices[l]);
+    }
+    const auto timing = timers.time(Phase::coupling);
+    coupling::follow(model.lattices[l], model.mesh);
+  }
+}
+
+void Subcycling::kick_lattices(Model& model, const Substep& step, Vec3 gravity, double dt) {
+  const double gain = step.gain * dt * dt;
+  for (std::size_t l = 0; l < lattices_.size(); ++l) {
+    Lattice& lattice = model.lattices[l];
+    const de::Kick kick{step.keep, gain / lattice.mass, gain / lattice.inertia, gain * gravity};
+    lattices_[l].step(lattice, kick, step.share);
+  }
+}
+
+/// Takes the forces of what is fine from mesh.f, which is zero again then.
+void Subcycling::kick_and_drift(Mesh& mesh, const Substep& step, Vec3 gravity, double dt) {
   for_each(
       nodes_.size(),
       [=, this, &mesh, gain = step.gain * dt * dt](std::size_t n) {
@@ -108,7 +146,9 @@ void Subcycling::move(Mesh& mesh, const Substep& step, Vec3 gravity, double dt) 
       grain);
 }
 
-void Subcycling::end(Mesh& mesh) {
+void Subcycling::end(Model& model, Timers& timers) {
+  const auto timing = timers.time(Phase::nodes);
+  Mesh& mesh = model.mesh;
   for_each(
       nodes_.size(),
       [this, &mesh](std::size_t n) {
@@ -116,6 +156,11 @@ void Subcycling::end(Mesh& mesh) {
         mesh.u.set(i, u_.vector(n)), mesh.f.set(i, mean_.vector(n));
       },
       grain);
+  for (std::size_t l = 0; l < lattices_.size(); ++l) lattices_[l].end(model.lattices[l]);
+}
+
+de::KickSums Subcycling::kick(std::size_t l, Lattice& lattice, const de::Kick& kick, double dt) const {
+  return lattices_[l].kick(lattice, kick.keep, kick.per_mass * 2 / (dt * dt));
 }
 
 }  // namespace geist

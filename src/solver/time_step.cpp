@@ -57,10 +57,12 @@ double frequency_squared(const Mesh& mesh, std::int32_t i, const NodeBounds& at,
 }
 
 NodeLimits node_limits(const Mesh& mesh, const NodeBounds& at) {
-  NodeLimits limits{std::vector<double>(mesh.nodes()), std::vector<double>(mesh.nodes()),
-                    std::vector<std::uint8_t>(mesh.nodes())};
-  for (std::size_t i = 0; i < mesh.nodes(); ++i)
-    limits.of_others[i] = (at.ghosts[i] + at.contacts[i]) / mesh.mass[i];
+  const std::vector<double> zero(mesh.nodes());
+  NodeLimits limits{zero, zero, zero, std::vector<std::uint8_t>(mesh.nodes())};
+  for (std::size_t i = 0; i < mesh.nodes(); ++i) {
+    limits.of_ghosts[i] = at.ghosts[i] / mesh.mass[i];
+    limits.of_contacts[i] = at.contacts[i] / mesh.mass[i];
+  }
   for (const HexRegion& region : mesh.regions) {
     const bool viscous = has_viscous_control(region);
     for (std::size_t e = region.first; e < region.first + region.count; ++e)
@@ -96,21 +98,23 @@ std::vector<TimeStepBound> time_step_bounds(const Model& model, const contact::C
 }
 
 TimeStepLimits time_step_limits(const Model& model, const contact::Contacts& contacts) {
-  std::vector<TimeStepBound> bounds;
+  TimeStepLimits limits;
   const NodeBounds at = node_bounds(model, contacts);
   const auto held = [](std::uint8_t bits) { return bits == 0b111; };
   const bool all_held =
       model.lattices.empty() && std::all_of(model.mesh.held.begin(), model.mesh.held.end(), held);
   for (const HexRegion& region : model.mesh.regions)
-    bounds.push_back(hex_bound(model.mesh, region, at, all_held));
+    limits.bounds.push_back(hex_bound(model.mesh, region, at, all_held));
   for (std::size_t l = 0; l < model.lattices.size(); ++l) {
     const Lattice& lattice = model.lattices[l];
     const double charge = contacts.particle_charge(model, static_cast<std::int32_t>(l));
-    bounds.push_back({lattice.name, 2 / std::sqrt(de::largest_frequency_squared(lattice) + charge),
-                      fmt::format("bonds{} of particles, r = {:.6g}", charge > 0 ? " and contacts" : "",
-                                  lattice.radius())});
+    limits.bounds.push_back({lattice.name, 2 / std::sqrt(de::largest_frequency_squared(lattice) + charge),
+                             fmt::format("bonds{} of particles, r = {:.6g}",
+                                         charge > 0 ? " and contacts" : "", lattice.radius())});
+    limits.particles_may_touch |= charge > 0;
   }
-  return {std::move(bounds), node_limits(model.mesh, at)};
+  limits.nodes = node_limits(model.mesh, at);
+  return limits;
 }
 
 const TimeStepBound& critical(const std::vector<TimeStepBound>& bounds) {

@@ -34,14 +34,15 @@ std::vector<TimeStepBound> time_step_bounds(const Model& model, const contact::C
 /// By node: ω² of the sum above, over its regions the largest, 0 where a support holds it; what ghosts and
 /// contacts have in that, Σ ω² m / m_I; and whether elements with viscous control act on it.
 struct NodeLimits {
-  std::vector<double> frequency_squared, of_others;
+  std::vector<double> frequency_squared, of_ghosts, of_contacts;
   std::vector<std::uint8_t> viscous;
 };
 
-/// The bounds, and what those of hexahedra are made of.
+/// The bounds, what those of hexahedra are made of, and whether particles may touch anything.
 struct TimeStepLimits {
   std::vector<TimeStepBound> bounds;
   NodeLimits nodes;
+  bool particles_may_touch = false;
 };
 TimeStepLimits time_step_limits(const Model& model, const contact::Contacts& contacts);
 

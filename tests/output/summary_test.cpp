@@ -21,7 +21,7 @@ RunSummary example() {
   s.ledger.strain_bonds = 2, s.ledger.external = 3, s.ledger.linear = {1, 2, 3};
   s.ledger.friction = 0.25, s.warnings = {"deep"};
   s.counts = count(geist::testing::small_model());
-  s.time_step = {1e-3, 1.1e-3, "region middle: bonds", 3, 8};
+  s.time_step = {1e-3, 1.1e-3, "region middle: bonds", 3, 8, 12};
   s.steps = 42, s.time = 0.5, s.threads = 4;
   s.phases = {{"set-up", 0.25}, {"bonds", 0.5}};
   s.versions = library_versions();
@@ -51,6 +51,7 @@ TEST(Summary, ReadsBack) {
   EXPECT_EQ(json["time_step"]["limited_by"], "region middle: bonds");
   EXPECT_EQ(json["time_step"]["substeps"], 3);
   EXPECT_EQ(json["time_step"]["fine_hexahedra"], 8);
+  EXPECT_EQ(json["time_step"]["fine_particles"], 12);
   EXPECT_EQ(json["steps"], 42);
   EXPECT_TRUE(json["quasi_static"].is_null());
   EXPECT_EQ(json["wall_seconds"]["total"], 0.75);
