@@ -19,7 +19,13 @@ constexpr double node_time = 3, short_node_time = 20;
 
 double element_time(const HexRegion& region, Kinematics kinematics) {
   const bool one_point = region.formulation != "full" && region.formulation != "selective-reduced";
-  return (one_point ? 27 : 48) + (kinematics == Kinematics::finite ? 18 : 0);
+  return (one_point ? 30 : 50) + (kinematics == Kinematics::finite ? 18 : 0);
+}
+
+double block_time(const Mesh& mesh, std::size_t b) {
+  const HexBlock& block = mesh.blocks[b];
+  const double time = block.count * element_time(mesh.regions[region_of(mesh, block.first)], mesh.kinematics);
+  return !mesh.cuts.empty() && mesh.cut_of_block[b] >= 0 ? 2 * time : time;
 }
 
 double site_time(const Lattice& lattice) { return lattice.kinematics == Kinematics::finite ? 30 : 10; }
@@ -42,8 +48,7 @@ double time_of_lattices(const Model& model) {
 
 double time_of_a_step(const Model& model) {
   double time = node_time * static_cast<double>(model.mesh.nodes());
-  for (const HexRegion& region : model.mesh.regions)
-    time += element_time(region, model.mesh.kinematics) * static_cast<double>(region.count);
+  for (std::size_t b = 0; b < model.mesh.blocks.size(); ++b) time += block_time(model.mesh, b);
   return time + time_of_lattices(model);
 }
 
@@ -69,11 +74,7 @@ double time_of_a_short_step(const Model& model, const FinePart& fine) {
   const Mesh& mesh = model.mesh;
   const std::vector<std::uint8_t> touched = with_neighbours(mesh, fine.is_fine);
   double time = short_node_time * static_cast<double>(std::count(touched.begin(), touched.end(), 1));
-  for (const std::int32_t b : fine.blocks) {
-    const HexBlock& block = mesh.blocks[b];
-    const HexRegion& region = mesh.regions[region_of(mesh, block.first)];
-    time += element_time(region, mesh.kinematics) * block.count;
-  }
+  for (const std::int32_t b : fine.blocks) time += block_time(mesh, static_cast<std::size_t>(b));
   return time + (fine.lattices ? time_of_lattices(model) : 0);
 }
 
