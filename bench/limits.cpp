@@ -99,11 +99,13 @@ double Triad::bandwidth() { return std::max(once(false), once(true)); }
 
 LimitProbe::LimitProbe() : cache_(cache_share * threads()), memory_(memory_bytes) {}
 
-void LimitProbe::measure(Limits& limits) {
-  limits.fma = std::max(limits.fma, fma_rate());
+double LimitProbe::measure(Limits& limits) {
+  const double fma = fma_rate();
+  limits.fma = std::max(limits.fma, fma);
   limits.cache = std::max(limits.cache, cache_.bandwidth());
   limits.memory = std::max(limits.memory, memory_.bandwidth());
   limits.fork_join = std::min(limits.fork_join, fork_join_time());
+  return fma;
 }
 
 }  // namespace geist::bench

@@ -33,11 +33,12 @@ struct Limits {
   double fork_join = 1e9;                 ///< seconds
 };
 
-/// Measures all limits again, so that they see the same machine as what is measured between the calls.
+/// Measures all limits again, so that they see the same machine as what is measured between the calls;
+/// returns this call's multiply-add rate.
 class LimitProbe {
  public:
   LimitProbe();
-  void measure(Limits& limits);
+  double measure(Limits& limits);
 
  private:
   Triad cache_, memory_;

@@ -14,7 +14,10 @@ namespace {
 
 constexpr double sample_seconds = 0.03;  ///< short, to fit between what others do
 
-constexpr double quiet = 0.2;  ///< processors that others may keep busy in a quiet round
+/// In a quiet round others keep no more processors busy than that, and multiply-adds run at least at this
+/// share of their best rate: on virtual machines two processors may share a core for a while, which shows in
+/// no count.
+constexpr double busy_at_most = 0.2, undisturbed_at_least = 0.9;
 
 /// Repeats a function for one sample's time.
 class Sampler {
@@ -106,13 +109,15 @@ Measured measure(Subject& subject, Effort effort, Limits& limits) {
   const double end = now() + effort.patience;
   while (result.quiet_rounds < effort.rounds && (result.rounds < effort.rounds || now() < end)) {
     const Others in_this_round;
-    probe.measure(limits);
+    const double fma = probe.measure(limits);
     bandwidth = std::max(bandwidth, triad.bandwidth());
     keeper.sample(plain);
     for (Sampler& k : kernels) k.sample();
     observed.sample();
+    const double slowest = std::min(fma, fma_rate());
     ++result.rounds;
-    if (in_this_round.busy() < quiet) ++result.quiet_rounds;
+    if (in_this_round.busy() < busy_at_most && slowest > undisturbed_at_least * limits.fma)
+      ++result.quiet_rounds;
   }
   result.others = others.busy();
   result.rows.push_back(make_row(subject, whole_program, mixed(plain.best(), observed.best()),
