@@ -48,37 +48,46 @@ struct Extent {
   Extent& operator+=(const Extent& b) { return widen(box, b.box), *this; }
 };
 
-std::array<const double*, 3> displacements(const Model& model, const PlaceRange& range) {
-  if (range.lattice < 0) return {model.mesh.u[0], model.mesh.u[1], model.mesh.u[2]};
-  const Field<6>& motion = model.lattices[range.lattice].motion;
-  return {motion[0], motion[1], motion[2]};
+template <int N>
+std::array<const double*, 3> first_three(const Field<N>& field) {
+  return {field[0], field[1], field[2]};
 }
 
-/// Moves eight places of a range at a time and measures how far they went.
+/// Displacements by index at the present time: u + ahead v, to the bit what a drift makes of them.
+struct Displacement {
+  std::array<const double*, 3> u, v;
+  double ahead;
+  double operator()(int c, std::int32_t i) const {
+    return ahead > 0 ? fma(ahead, v[c][i], u[c][i]) : u[c][i];
+  }
+};
+
+Displacement displacement_of(const Model& model, const PlaceRange& range, double ahead) {
+  if (range.lattice < 0) return {first_three(model.mesh.u), first_three(model.mesh.v), 0};
+  const Lattice& lattice = model.lattices[range.lattice];
+  return {first_three(lattice.motion), first_three(lattice.velocity), ahead};
+}
+
+/// Moves places of a range and measures how far they went.
 struct Follower {
   std::array<double*, 3> x;
-  std::array<const double*, 3> X, searched, u;
+  std::array<const double*, 3> X, searched;
+  Displacement u;
   const std::int32_t* index;
-  std::size_t begin, end;
 
-  Follower(Places& places, const PlaceRange& range, std::array<const double*, 3> displacement)
+  Follower(Places& places, const Displacement& displacement)
       : x{places.x[0], places.x[1], places.x[2]},
-        X{places.X[0], places.X[1], places.X[2]},
-        searched{places.x_searched[0], places.x_searched[1], places.x_searched[2]},
+        X(first_three(places.X)),
+        searched(first_three(places.x_searched)),
         u(displacement),
-        index(places.index.data()),
-        begin(range.begin),
-        end(range.end) {}
+        index(places.index.data()) {}
 
-  std::size_t packs() const { return (end - begin + lanes - 1) / lanes; }
-
-  Extent operator()(std::size_t pack) const {
+  Extent operator()(std::size_t first, std::size_t last) const {
     Extent extent;
-    const std::size_t first = begin + pack * lanes, last = std::min(end, first + lanes);
     for (int c = 0; c < 3; ++c) {
       double low = extent.box.low[c], high = extent.box.high[c];
       for (std::size_t i = first; i < last; ++i) {
-        const double now = X[c][i] + u[c][index[i]], moved = now - searched[c][i];
+        const double now = X[c][i] + u(c, index[i]), moved = now - searched[c][i];
         x[c][i] = now;
         low = moved < low ? moved : low, high = moved > high ? moved : high;
       }
@@ -140,11 +149,27 @@ void finish(Places& places, const Model& model) {
 
 }  // namespace
 
-void Places::follow(const Model& model) {
+/// Every thread follows what it moves: others that read it would have to hand it back.
+void Places::follow(const Model& model, double ahead) {
   std::fill(moved.begin(), moved.end(), nowhere());
+  std::vector<Box> extents(static_cast<std::size_t>(threads()));
   for (const PlaceRange& range : ranges) {
-    const Follower follow{*this, range, displacements(model, range)};
-    widen(moved[range.cluster], sum<Extent>(follow.packs(), follow).box);
+    const bool nodes = range.lattice < 0;
+    const std::size_t rows = nodes ? model.mesh.nodes() : model.lattices[range.lattice].grid.rows(),
+                      stride = nodes ? 1 : model.lattices[range.lattice].grid.stride();
+    const Follower follow{*this, displacement_of(model, range, ahead)};
+    const auto place_of_row = [&](std::size_t row) {
+      const auto at = index.begin() + static_cast<std::ptrdiff_t>(range.begin);
+      return static_cast<std::size_t>(std::lower_bound(at,
+                                                       index.begin() + static_cast<std::ptrdiff_t>(range.end),
+                                                       static_cast<std::int32_t>(row * stride)) -
+                                      index.begin());
+    };
+    std::fill(extents.begin(), extents.end(), nowhere());
+    for_each_share(rows, [&, all = extents.data()](Indices share) {
+      all[share.number] = follow(place_of_row(share.begin), place_of_row(share.end)).box;
+    });
+    for (const Box& extent : extents) widen(moved[range.cluster], extent);
   }
 }
 

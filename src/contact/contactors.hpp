@@ -38,8 +38,8 @@ struct Places {
   Field<3> inverse_mass;            ///< by component: 0 where a support holds it
   std::vector<Box> moved;           ///< by cluster: lowest and highest displacement since the last search
 
-  /// Bring x and moved up to date.
-  void follow(const Model& model);
+  /// Bring x and moved up to date; lattices are `ahead` later than their motion says.
+  void follow(const Model& model, double ahead);
 };
 
 struct Contactor {

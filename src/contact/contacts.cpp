@@ -62,14 +62,15 @@ Contacts::Contacts(const Model& model, LawTable laws) : laws_(std::move(laws)) {
   const std::size_t n = places_.list.size();
   force_.resize(n), moment_.resize(n), marked_.resize(n);
   reported_.resize(laws_.regions() * laws_.regions());
-  places_.follow(model);
+  places_.follow(model, 0);
   search_again(model);
 }
 
 void Contacts::find_thinnest() {
   least_.resize(laws_.regions(), {-1, -1, 0, 0, 0});
   for (const Contactor& c : contactors_) {
-    skin_ = skin_ == 0 ? reach(c) / 2 : std::min(skin_, reach(c) / 2);
+    const double skin = reach(c) / (c.radius > 0 ? 2 : 4);
+    skin_ = skin_ == 0 ? skin : std::min(skin_, skin);
     if (Contactor& least = least_[c.region]; least.region < 0 || c.depth < least.depth) least = c;
   }
   thinnest_.resize(laws_.regions(), 0);
@@ -78,8 +79,8 @@ void Contacts::find_thinnest() {
       thinnest = facet.depth;
 }
 
-void Contacts::find(const Model& model, double dt) {
-  places_.follow(model);
+void Contacts::find(const Model& model, double dt, double ahead) {
+  places_.follow(model, ahead);
   if (outdated(candidates_, places_)) search_again(model);
   constexpr std::size_t worth_threads = 200;
   for_each(

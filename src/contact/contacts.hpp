@@ -56,8 +56,8 @@ class Contacts {
   bool empty() const { return laws_.empty(); }
 
   /// All contacts and their forces at the present positions. Friction follows the motion of the last `dt`; 0
-  /// at the start.
-  void find(const Model& model, double dt);
+  /// at the start. Lattices that have yet to drift over the time `ahead` are taken to be there.
+  void find(const Model& model, double dt, double ahead = 0);
 
   /// mesh.f += the contact forces of the last find().
   void add_to_nodes(Mesh& mesh) const;

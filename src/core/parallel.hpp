@@ -70,9 +70,9 @@ void for_each(std::size_t n, F f, std::size_t grain = 1) {
   for (std::size_t i = 0; i < n; ++i) f(i);
 }
 
-/// begin ≤ i < end.
+/// begin ≤ i < end, share `number` of all.
 struct Indices {
-  std::size_t begin = 0, end = 0;
+  std::size_t begin = 0, end = 0, number = 0;
 };
 
 /// f(range) for contiguous shares of [0, n), one for each thread, the same ones whenever it is called. Fewer
@@ -81,7 +81,9 @@ struct Indices {
 template <class F>
 void for_each_share(std::size_t n, F f, std::size_t grain = 1) {
   const std::size_t shares = n > grain ? static_cast<std::size_t>(threads()) : 1;
-  for_each(shares, [=](std::size_t share) { f(Indices{n * share / shares, n * (share + 1) / shares}); });
+  for_each(shares, [=](std::size_t share) {
+    f(Indices{n * share / shares, n * (share + 1) / shares, share});
+  });
 }
 
 /// Σ f(i) over [0, n): blocks of fixed size are added up in index order, whatever the number of threads.

@@ -44,7 +44,7 @@ void Simulation::step(bool observe) {
   {
     const auto timing = timers.time(Phase::drift);  // u^{n+1} = u^n + Δt v^{n+1/2}
     drift(model.mesh, dt);
-    if (lattices_drift_apart())
+    if (subcycling.lattices())
       for (Lattice& lattice : model.lattices) de::drift(lattice, dt);
     model.time = static_cast<double>(++model.step) * dt;
   }
@@ -88,7 +88,7 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   }
   if (!contacts.empty()) {
     const auto timing = timers.time(Phase::contact);
-    contacts.find(model, arrived ? dt : 0);
+    contacts.find(model, arrived ? dt : 0, arrived && !subcycling.lattices() ? dt : 0);
   }
   double power = 0;
   {
@@ -97,13 +97,12 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   }
   {
     const auto timing = timers.time(Phase::lattice);
-    const bool drifted = !arrived || lattices_drift_apart();
     for (Lattice& lattice : model.lattices) {  // (19)–(23), (3)–(5), (13); then (15)(17)(18), (24)(26)(27)
       const de::Kick own = for_lattice(kick, lattice);
       if (subcycling.lattices())
         clear(lattice.listed_force);
       else
-        sums += weighted(drifted ? de::bond_forces_and_kick(lattice, own) : de::advance(lattice, own, dt),
+        sums += weighted(arrived ? de::advance(lattice, own, dt) : de::bond_forces_and_kick(lattice, own),
                          lattice);
     }
   }
@@ -120,9 +119,6 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   account(sums, kick_dt, arrived);
   account_damping(power, arrived);
 }
-
-/// Contacts are found, and short steps taken, between the lattices' drift and their kick.
-bool Simulation::lattices_drift_apart() const { return !contacts.empty() || subcycling.lattices(); }
 
 /// Those of fine elements wait until all others are known.
 double Simulation::elements_forces() {

@@ -58,7 +58,6 @@ class Simulation {
  private:
   void forces_and_kick(double kick_dt, bool arrived);
   double elements_forces();
-  bool lattices_drift_apart() const;
   void complete_node_forces();
   de::KickSums short_steps(const de::Kick& kick, Vec3 gravity);
   de::KickSums kick_touched(const de::Kick& kick);

@@ -28,7 +28,7 @@ struct Scene {
   Scene(const Builder& builder, LawTable table)
       : model(builder.made()), surface(make_surface(model)), laws(std::move(table)) {
     contactors = make_contactors(model, surface, laws, places);
-    places.follow(model);
+    places.follow(model, 0);
   }
 
   /// Of a node, from triangles whose normal is at a cosine less than `facing` to its own.
@@ -160,7 +160,7 @@ TEST(Search, MissesNothingUntilItIsOutdated) {
         for (std::size_t s = 0; s < lattice.grid.size(); ++s)
           lattice.motion.set(s, own + random.vector(0.006));
       }
-      scene.places.follow(scene.model);
+      scene.places.follow(scene.model, 0);
       if (outdated(found, scene.places)) {
         ++outdated_ones;
         continue;
@@ -184,7 +184,7 @@ TEST(Search, OfDistantBodiesLastsForTheirWay) {
     Lattice& lattice = scene.model.lattices[0];
     const auto lower = [&](double z) {
       for (std::size_t s = 0; s < lattice.grid.size(); ++s) lattice.motion.set(s, {0, 0, -z});
-      scene.places.follow(scene.model);
+      scene.places.follow(scene.model, 0);
       return outdated(found, scene.places);
     };
     EXPECT_TRUE(lower(apart));
