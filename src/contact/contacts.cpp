@@ -66,6 +66,7 @@ Contacts::Contacts(const Model& model, LawTable laws) : laws_(std::move(laws)) {
   search_again(model);
 }
 
+/// The skin is short enough that a node one element away from an edge is not paired with the flank around it.
 void Contacts::find_thinnest() {
   least_.resize(laws_.regions(), {-1, -1, 0, 0, 0});
   for (const Contactor& c : contactors_) {

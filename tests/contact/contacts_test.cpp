@@ -8,6 +8,7 @@
 
 #include "contact/support.hpp"
 #include "core/parallel.hpp"
+#include "de/bonds.hpp"
 
 namespace geist::contact {
 namespace {
@@ -107,6 +108,30 @@ TEST(Contacts, PressedParticleInASlotStaysFinite) {
   Contacts contacts(model, one_law(2, 0, 1, rough));
   contacts.find(model, 1e-3);
   for (const TouchedPlace& t : contacts.touched()) EXPECT_TRUE(std::isfinite(norm(t.force)));
+}
+
+/// To the bit what is found after the drift; nodes have drifted before.
+TEST(Contacts, AreFoundWhereParticlesWillHaveDriftedTo) {
+  constexpr double dt = 1e-3;
+  Builder builder;
+  builder.hexahedra({{0, 0, 0}, {1, 1, 1}}, {2, 2, 2}).particles({{0.2, 0.2, 0.97}, {0.6, 0.6, 1.37}}, 0.1);
+  Model ahead = builder.made(), drifted = builder.made();
+  for (Model* model : {&ahead, &drifted}) {
+    Random random(37);
+    move_at_random(*model, random, 0.001, 5);
+  }
+  Contacts early(ahead, one_law(2, 0, 1, rough)), late(drifted, one_law(2, 0, 1, rough));
+  early.find(ahead, dt, dt);
+  de::drift(drifted.lattices[0], dt);
+  late.find(drifted, dt);
+  const auto &a = early.touched(), &b = late.touched();
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_GT(a.size(), 4u);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(a[i].force[c], b[i].force[c]);
+      EXPECT_EQ(a[i].moment[c], b[i].moment[c]);
+    }
 }
 
 TEST(Contacts, GiveNodesAndParticlesWhatTheyList) {
