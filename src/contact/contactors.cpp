@@ -42,12 +42,6 @@ Vec3 inverse_mass(const Model& model, Place place) {
   return free_inverse(lattice.mass, listed ? lattice.listed_held[listed_slot(lattice, place.index)] : 0);
 }
 
-/// A box that grows.
-struct Extent {
-  Box box = nowhere();
-  Extent& operator+=(const Extent& b) { return widen(box, b.box), *this; }
-};
-
 template <int N>
 std::array<const double*, 3> first_three(const Field<N>& field) {
   return {field[0], field[1], field[2]};
@@ -82,16 +76,17 @@ struct Follower {
         u(displacement),
         index(places.index.data()) {}
 
-  Extent operator()(std::size_t first, std::size_t last) const {
-    Extent extent;
+  /// Lowest and highest displacement since the last search of the places first ≤ i < last.
+  Box operator()(std::size_t first, std::size_t last) const {
+    Box extent = nowhere();
     for (int c = 0; c < 3; ++c) {
-      double low = extent.box.low[c], high = extent.box.high[c];
+      double low = extent.low[c], high = extent.high[c];
       for (std::size_t i = first; i < last; ++i) {
         const double now = X[c][i] + u(c, index[i]), moved = now - searched[c][i];
         x[c][i] = now;
         low = moved < low ? moved : low, high = moved > high ? moved : high;
       }
-      extent.box.low[c] = low, extent.box.high[c] = high;
+      extent.low[c] = low, extent.high[c] = high;
     }
     return extent;
   }
@@ -149,28 +144,27 @@ void finish(Places& places, const Model& model) {
 
 }  // namespace
 
-/// Every thread follows what it moves: others that read it would have to hand it back.
+/// Every thread follows the rows that it moves: what others read would have to be fetched back to be written.
 void Places::follow(const Model& model, double ahead) {
   std::fill(moved.begin(), moved.end(), nowhere());
   std::vector<Box> extents(static_cast<std::size_t>(threads()));
   for (const PlaceRange& range : ranges) {
-    const bool nodes = range.lattice < 0;
-    const std::size_t rows = nodes ? model.mesh.nodes() : model.lattices[range.lattice].grid.rows(),
-                      stride = nodes ? 1 : model.lattices[range.lattice].grid.stride();
+    const Grid* const grid = range.lattice < 0 ? nullptr : &model.lattices[range.lattice].grid;
+    const std::size_t rows = grid ? grid->rows() : model.mesh.nodes(), stride = grid ? grid->stride() : 1;
     const Follower follow{*this, displacement_of(model, range, ahead)};
-    const auto place_of_row = [&](std::size_t row) {
-      const auto at = index.begin() + static_cast<std::ptrdiff_t>(range.begin);
-      return static_cast<std::size_t>(std::lower_bound(at,
-                                                       index.begin() + static_cast<std::ptrdiff_t>(range.end),
-                                                       static_cast<std::int32_t>(row * stride)) -
-                                      index.begin());
-    };
     std::fill(extents.begin(), extents.end(), nowhere());
-    for_each_share(rows, [&, all = extents.data()](Indices share) {
-      all[share.number] = follow(place_of_row(share.begin), place_of_row(share.end)).box;
+    for_each_share(rows, [=, this, extent = extents.data()](Indices share) {
+      extent[share.number] =
+          follow(first_from(range, share.begin * stride), first_from(range, share.end * stride));
     });
     for (const Box& extent : extents) widen(moved[range.cluster], extent);
   }
+}
+
+std::size_t Places::first_from(const PlaceRange& range, std::size_t i) const {
+  const std::int32_t* const all = index.data();
+  return static_cast<std::size_t>(
+      std::lower_bound(all + range.begin, all + range.end, static_cast<std::int32_t>(i)) - all);
 }
 
 std::vector<Contactor> make_contactors(const Model& model, const Surface& surface, const LawTable& laws,

@@ -19,7 +19,7 @@ struct Place {
   std::size_t index;
 };
 
-/// Places that lie side by side and move with one field: u = field[index].
+/// Places that lie side by side, by ascending index, and move with one field: u = field[index].
 struct PlaceRange {
   std::int32_t lattice;  ///< < 0: nodes
   std::int32_t cluster;
@@ -40,6 +40,10 @@ struct Places {
 
   /// Bring x and moved up to date; lattices are `ahead` later than their motion says.
   void follow(const Model& model, double ahead);
+
+ private:
+  /// The first place of a range whose index is not below i.
+  std::size_t first_from(const PlaceRange& range, std::size_t i) const;
 };
 
 struct Contactor {
