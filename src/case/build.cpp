@@ -240,4 +240,19 @@ Built build(const Case& input) {
   return built;
 }
 
+RunPlan plan_of(const Case& input) {
+  RunPlan plan;
+  plan.quasi_static = input.analysis.type == "quasi-static";
+  plan.is_static = input.analysis.type == "static";
+  plan.static_start = input.analysis.start == "static";
+  plan.max_iterations = input.analysis.max_iterations;
+  plan.tolerance = input.analysis.tolerance;
+  plan.end_time = input.analysis.duration;
+  plan.max_steps = input.analysis.max_steps;
+  plan.history_every = input.output.history_every.value_or(0);
+  plan.fields_every = input.output.fields_every.value_or(0), plan.fields_at = input.output.fields_at;
+  plan.balance_tolerance = input.analysis.balance_tolerance;
+  return plan;
+}
+
 }  // namespace geist

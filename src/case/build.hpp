@@ -4,6 +4,7 @@
 
 #include "case/case.hpp"
 #include "solver/probes.hpp"
+#include "solver/run.hpp"
 #include "solver/simulation.hpp"
 #include "solver/time_step.hpp"
 
@@ -21,5 +22,8 @@ struct Built {
 /// Throws CaseError for what only the geometry shows: regions that clash, empty selections, a time step that
 /// is too long.
 Built build(const Case& input);
+
+/// How it is to be run; nothing stops it before its end.
+RunPlan plan_of(const Case& input);
 
 }  // namespace geist

@@ -151,22 +151,6 @@ class Recorder : public Observer {
   double seconds_ = 0;
 };
 
-RunPlan plan_of(const Case& input, const ExecuteOptions& options) {
-  RunPlan plan;
-  plan.quasi_static = input.analysis.type == "quasi-static";
-  plan.is_static = input.analysis.type == "static";
-  plan.static_start = input.analysis.start == "static";
-  plan.max_iterations = input.analysis.max_iterations;
-  plan.tolerance = input.analysis.tolerance;
-  plan.end_time = input.analysis.duration;
-  plan.max_steps = input.analysis.max_steps;
-  plan.history_every = input.output.history_every.value_or(0);
-  plan.fields_every = input.output.fields_every.value_or(0), plan.fields_at = input.output.fields_at;
-  plan.balance_tolerance = input.analysis.balance_tolerance;
-  plan.stop = options.stop;
-  return plan;
-}
-
 std::string status_name(Status status) {
   switch (status) {
     case Status::completed:
@@ -237,8 +221,7 @@ output::RunSummary summarise(const Case& input, const ExecuteOptions& options, c
   if (const auto& found = outcome.equilibrium)
     s.equilibrium = output::EquilibriumFound{
         found->iterations,
-        {found->residual,
-         plan_of(input, options).is_static ? input.analysis.tolerance : static_start_tolerance,
+        {found->residual, plan_of(input).is_static ? input.analysis.tolerance : static_start_tolerance,
          found->end == Equilibrium::End::found}};
   s.phases = phases_of(sim.timers, output, wall);
   const auto rate = [&](std::size_t n) {
@@ -306,7 +289,8 @@ int execute(const Case& input, const ExecuteOptions& options) {
   prepare_directory(options.directory, options.force);
   output::write_whole(options.directory / output::case_name, input.toml);
   if (!options.quiet) output::print(stdout, describe(input, built) + "\n");
-  const RunPlan plan = plan_of(input, options);
+  RunPlan plan = plan_of(input);
+  plan.stop = options.stop;
   const double begin = output::Progress::wall_clock();
   Recorder recorder(input, options, built.probes);
   const Outcome outcome = watched_run(built.simulation, plan, recorder);

@@ -56,20 +56,6 @@ Case published(const std::string& name, std::vector<std::string> set) {
   return example(name, set);
 }
 
-RunPlan plan_of(const Case& input) {
-  RunPlan plan;
-  plan.quasi_static = input.analysis.type == "quasi-static";
-  plan.is_static = input.analysis.type == "static";
-  plan.static_start = input.analysis.start == "static";
-  plan.max_iterations = input.analysis.max_iterations;
-  plan.tolerance = input.analysis.tolerance;
-  plan.end_time = input.analysis.duration;
-  plan.max_steps = input.analysis.max_steps;
-  plan.history_every = input.output.history_every.value_or(0);
-  plan.balance_tolerance = input.analysis.balance_tolerance;
-  return plan;
-}
-
 Outcome run_to_end(const Case& input, Built& built, const std::vector<Observer*>& observers) {
   set_threads(1);
   return run(built.simulation, plan_of(input), observers);

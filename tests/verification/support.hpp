@@ -16,9 +16,6 @@ Case example(const std::string& name, const std::vector<std::string>& set = {});
 /// The same by the published method.
 Case published(const std::string& name, std::vector<std::string> set = {});
 
-/// A run's plan as the program makes it from the case; fields and history are nobody's business here.
-RunPlan plan_of(const Case& input);
-
 /// Run it on one thread to its end.
 Outcome run_to_end(const Case& input, Built& built, const std::vector<Observer*>& observers = {});
 
