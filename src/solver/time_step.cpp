@@ -56,6 +56,7 @@ double frequency_squared(const Mesh& mesh, std::int32_t i, const NodeBounds& at,
   return combined(at.elements[i] / mesh.mass[i], (at.ghosts[i] + at.contacts[i]) / mesh.mass[i], viscous);
 }
 
+/// Nothing of elements yet.
 NodeLimits node_limits(const Mesh& mesh, const NodeBounds& at) {
   const std::vector<double> zero(mesh.nodes());
   NodeLimits limits{zero, zero, zero, std::vector<std::uint8_t>(mesh.nodes())};
@@ -63,26 +64,22 @@ NodeLimits node_limits(const Mesh& mesh, const NodeBounds& at) {
     limits.of_ghosts[i] = at.ghosts[i] / mesh.mass[i];
     limits.of_contacts[i] = at.contacts[i] / mesh.mass[i];
   }
-  for (const HexRegion& region : mesh.regions) {
-    const bool viscous = has_viscous_control(region);
-    for (std::size_t e = region.first; e < region.first + region.count; ++e)
-      for (const std::int32_t i : mesh.elements[e]) {
-        double& omega2 = limits.frequency_squared[i];
-        if (mesh.held[i] != 0b111) omega2 = std::max(omega2, frequency_squared(mesh, i, at, viscous));
-        limits.viscous[i] |= viscous;
-      }
-  }
   return limits;
 }
 
-TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBounds& at, bool held_too) {
+/// The region's bound; its nodes' limits are completed on the way.
+TimeStepBound hex_bound(const Mesh& mesh, const HexRegion& region, const NodeBounds& at, bool held_too,
+                        NodeLimits& limits) {
   const bool viscous = has_viscous_control(region);
   double worst = 0;
   std::int32_t node = 0;
   for (std::size_t e = region.first; e < region.first + region.count; ++e)
     for (const std::int32_t i : mesh.elements[e]) {
-      if (mesh.held[i] == 0b111 && !held_too) continue;
+      const bool held = mesh.held[i] == 0b111;
+      limits.viscous[i] |= viscous;
+      if (held && !held_too) continue;
       const double omega2 = frequency_squared(mesh, i, at, viscous);
+      if (!held) limits.frequency_squared[i] = std::max(limits.frequency_squared[i], omega2);
       if (omega2 > worst) worst = omega2, node = i;
     }
   const Vec3 p = mesh.points[node];
@@ -100,11 +97,12 @@ std::vector<TimeStepBound> time_step_bounds(const Model& model, const contact::C
 TimeStepLimits time_step_limits(const Model& model, const contact::Contacts& contacts) {
   TimeStepLimits limits;
   const NodeBounds at = node_bounds(model, contacts);
+  limits.nodes = node_limits(model.mesh, at);
   const auto held = [](std::uint8_t bits) { return bits == 0b111; };
   const bool all_held =
       model.lattices.empty() && std::all_of(model.mesh.held.begin(), model.mesh.held.end(), held);
   for (const HexRegion& region : model.mesh.regions)
-    limits.bounds.push_back(hex_bound(model.mesh, region, at, all_held));
+    limits.bounds.push_back(hex_bound(model.mesh, region, at, all_held, limits.nodes));
   for (std::size_t l = 0; l < model.lattices.size(); ++l) {
     const Lattice& lattice = model.lattices[l];
     const double charge = contacts.particle_charge(model, static_cast<std::int32_t>(l));
@@ -113,7 +111,6 @@ TimeStepLimits time_step_limits(const Model& model, const contact::Contacts& con
                                          charge > 0 ? " and contacts" : "", lattice.radius())});
     limits.particles_may_touch |= charge > 0;
   }
-  limits.nodes = node_limits(model.mesh, at);
   return limits;
 }
 
