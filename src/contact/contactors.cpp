@@ -1,6 +1,7 @@
 #include "contact/contactors.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/disjoint_sets.hpp"
 #include "core/parallel.hpp"
@@ -42,11 +43,6 @@ Vec3 inverse_mass(const Model& model, Place place) {
   return free_inverse(lattice.mass, listed ? lattice.listed_held[listed_slot(lattice, place.index)] : 0);
 }
 
-template <int N>
-std::array<const double*, 3> first_three(const Field<N>& field) {
-  return {field[0], field[1], field[2]};
-}
-
 /// Displacements by index at the present time: u + ahead v, to the bit what a drift makes of them.
 struct Displacement {
   std::array<const double*, 3> u, v;
@@ -57,9 +53,9 @@ struct Displacement {
 };
 
 Displacement displacement_of(const Model& model, const PlaceRange& range, double ahead) {
-  if (range.lattice < 0) return {first_three(model.mesh.u), first_three(model.mesh.v), 0};
+  if (range.lattice < 0) return {components<3>(model.mesh.u), components<3>(model.mesh.v), 0};
   const Lattice& lattice = model.lattices[range.lattice];
-  return {first_three(lattice.motion), first_three(lattice.velocity), ahead};
+  return {components<3>(lattice.motion), components<3>(lattice.velocity), ahead};
 }
 
 /// Moves places of a range and measures how far they went.
@@ -70,9 +66,9 @@ struct Follower {
   const std::int32_t* index;
 
   Follower(Places& places, const Displacement& displacement)
-      : x{places.x[0], places.x[1], places.x[2]},
-        X(first_three(places.X)),
-        searched(first_three(places.x_searched)),
+      : x(components<3>(places.x)),
+        X(components<3>(std::as_const(places.X))),
+        searched(components<3>(std::as_const(places.x_searched))),
         u(displacement),
         index(places.index.data()) {}
 

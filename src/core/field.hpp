@@ -71,6 +71,20 @@ class Field {
   std::size_t size_ = 0;
 };
 
+/// The first n components, for a kernel to take along.
+template <int n, int N>
+std::array<double*, n> components(Field<N>& f) {
+  std::array<double*, n> all;
+  for (int c = 0; c < n; ++c) all[c] = f[c];
+  return all;
+}
+template <int n, int N>
+std::array<const double*, n> components(const Field<N>& f) {
+  std::array<const double*, n> all;
+  for (int c = 0; c < n; ++c) all[c] = f[c];
+  return all;
+}
+
 /// Make everything zero again.
 template <int N>
 void clear(Field<N>& f) {

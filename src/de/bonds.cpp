@@ -77,8 +77,7 @@ struct RowKernel {
     const Pack zero = {};
     for (int c = 0; c < 6; ++c) {
       const Pack before = load(velocity[c] + s);
-      const Pack kept = c < 3 ? fma(kick.keep, before, broadcast(kick.gravity[c])) : kick.keep * before;
-      const Pack after = fma(c < 3 ? kick.per_mass : kick.per_inertia, f[c], kept);
+      const Pack after = kick(c, before, f[c]);
       store(velocity[c] + s, select(before, after));
       const Pack counted = select(zero, after);
       Pack& across = c < 3 ? sums.across : sums.spin_across;
@@ -219,9 +218,7 @@ KickSums kick_listed(Lattice& lattice, const Kick& kick) {
     const std::size_t s = lattice.listed[slot];
     for (int c = 0; c < 6; ++c) {
       if (lattice.listed_held[slot] >> c & 1) continue;
-      const double before = lattice.velocity[c][s], f = lattice.listed_force[c][slot];
-      const double kept = c < 3 ? fma(kick.keep, before, kick.gravity[c]) : kick.keep * before;
-      const double after = fma(c < 3 ? kick.per_mass : kick.per_inertia, f, kept);
+      const double before = lattice.velocity[c][s], after = kick(c, before, lattice.listed_force[c][slot]);
       lattice.velocity[c][s] = after;
       (c < 3 ? sums.across : sums.spin_across) += before * after;
       (c < 3 ? sums.after : sums.spin_after) += after * after;

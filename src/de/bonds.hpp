@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "core/pack.hpp"
 #include "core/vec.hpp"
 #include "model/lattice.hpp"
 
@@ -14,6 +15,17 @@ struct Kick {
   double per_mass = 0;     ///< Δt / (m (1 + αΔt/2))
   double per_inertia = 0;  ///< Δt / (I (1 + αΔt/2))
   Vec3 gravity;            ///< Δt g / (1 + αΔt/2)
+
+  /// The same for a lattice's particles, if this is for one unit of mass and inertia.
+  Kick of(const Lattice& lattice) const {
+    return {keep, per_mass / lattice.mass, per_inertia / lattice.inertia, gravity};
+  }
+  /// Component c of v⁺: 0–2 of the velocity, 3–5 of the spin.
+  template <class T>
+  GEIST_INLINE T operator()(int c, T before, T force) const {
+    const T kept = c < 3 ? fma(keep, before, constant<T>(gravity[c])) : keep * before;
+    return fma(c < 3 ? per_mass : per_inertia, force, kept);
+  }
 };
 
 /// Σ v⁻·v⁺ and Σ v⁺·v⁺ over the particles that were kicked; the same for spins. For one unit of mass and of

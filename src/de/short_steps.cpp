@@ -10,13 +10,6 @@
 namespace geist::de {
 namespace {
 
-template <int n, class Array>
-std::array<double*, n> components(Array& array) {
-  std::array<double*, n> all;
-  for (int c = 0; c < n; ++c) all[c] = array[c];
-  return all;
-}
-
 template <std::size_t n>
 GEIST_INLINE void copy_pack(const std::array<double*, n>& from, const std::array<double*, n>& to,
                             std::size_t s) {
@@ -84,18 +77,17 @@ void ShortSteps::end(Lattice& lattice) {
   copy(mean_, lattice.listed_force);
 }
 
-KickSums ShortSteps::kick(Lattice& lattice, double keep, double gain) const {
-  double* velocity[6];
-  const double *sum[6], *last[6];
-  for (int c = 0; c < 6; ++c) velocity[c] = lattice.velocity[c], sum[c] = sum_[c], last[c] = increment_[c];
+KickSums ShortSteps::kick(Lattice& lattice, const Kick& kick) const {
+  const auto velocity = components<6>(lattice.velocity);
+  const auto sum = components<6>(sum_), last = components<6>(increment_);
   return geist::sum<KickSums, 64>(
       lattice.grid.size() / lanes, [=, word = lattice.word.data()](std::size_t pack) {
         const std::size_t s = lanes * pack;
         const PackInt free = -((load(word + s) / site::free) & 1);
         Pack across[2] = {}, after[2] = {};
         for (int c = 0; c < 6; ++c) {
-          const Pack before = load(velocity[c] + s), moved = load(sum[c] + s) + load(last[c] + s);
-          const Pack kicked = fma(gain, moved, keep * before), zero = {};
+          const Pack before = load(velocity[c] + s), zero = {};
+          const Pack kicked = kick(c, before, load(sum[c] + s) + load(last[c] + s));
           store(velocity[c] + s, select(free, kicked, before));
           const Pack counted = select(free, kicked, zero);
           across[c / 3] = fma(before, counted, across[c / 3]);

@@ -30,8 +30,8 @@ class ShortSteps {
   /// along.
   void end(Lattice& lattice);
 
-  /// v⁺ = keep v⁻ + gain Σ w_k of the free particles.
-  KickSums kick(Lattice& lattice, double keep, double gain) const;
+  /// The kick of the free particles, with Σ w_k in the force's place.
+  KickSums kick(Lattice& lattice, const Kick& kick) const;
 
  private:
   template <class Drift>

@@ -36,17 +36,6 @@ void make_blocks(Mesh& mesh) {
   }
 }
 
-/// Call visit(node) for every corner of blocks[begin] … blocks[end − 1].
-template <class F>
-void visit_nodes(const Mesh& mesh, const std::vector<std::int32_t>& blocks, std::size_t begin,
-                 std::size_t end, F visit) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const HexBlock& block = mesh.blocks[static_cast<std::size_t>(blocks[i])];
-    for (int l = 0; l < block.count; ++l)
-      for (const std::int32_t node : mesh.elements[static_cast<std::size_t>(block.first + l)]) visit(node);
-  }
-}
-
 /// Slab after slab (32 at most) the least colour that none of its nodes has seen.
 std::vector<int> colours_of(const Mesh& mesh, const std::vector<std::int32_t>& blocks,
                             const std::vector<std::size_t>& limits) {
@@ -54,10 +43,14 @@ std::vector<int> colours_of(const Mesh& mesh, const std::vector<std::int32_t>& b
   std::vector<int> colours;
   for (std::size_t s = 0; s + 1 < limits.size(); ++s) {
     std::uint32_t taken = 0;
-    visit_nodes(mesh, blocks, limits[s], limits[s + 1], [&](std::int32_t node) { taken |= seen[node]; });
+    const auto visit_slab = [&](const auto& visit) {
+      for (std::size_t i = limits[s]; i < limits[s + 1]; ++i)
+        visit_nodes(mesh, mesh.blocks[blocks[i]], visit);
+    };
+    visit_slab([&](std::int32_t node) { taken |= seen[node]; });
     colours.push_back(std::countr_one(taken));
     const std::uint32_t own = std::uint32_t{1} << colours.back();
-    visit_nodes(mesh, blocks, limits[s], limits[s + 1], [&](std::int32_t node) { seen[node] |= own; });
+    visit_slab([&](std::int32_t node) { seen[node] |= own; });
   }
   return colours;
 }

@@ -102,6 +102,13 @@ struct Mesh {
 /// The cut of an element, if it is cut.
 const HexCut* cut_of(const Mesh& mesh, std::size_t element);
 
+/// visit(node) for every corner of a block's elements.
+template <class F>
+void visit_nodes(const Mesh& mesh, const HexBlock& block, F visit) {
+  for (int l = 0; l < block.count; ++l)
+    for (const std::int32_t node : mesh.elements[static_cast<std::size_t>(block.first + l)]) visit(node);
+}
+
 /// Number of the region that an element belongs to.
 std::int32_t region_of(const Mesh& mesh, std::int32_t element);
 

@@ -64,8 +64,7 @@ std::vector<std::uint8_t> with_neighbours(const Mesh& mesh, const std::vector<st
 void list_blocks(const Mesh& mesh, FinePart& fine) {
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     bool touches = false;
-    for (int l = 0; l < mesh.blocks[b].count; ++l)
-      for (const std::int32_t i : mesh.elements[mesh.blocks[b].first + l]) touches |= fine.is_fine[i] != 0;
+    visit_nodes(mesh, mesh.blocks[b], [&](std::int32_t i) { touches |= fine.is_fine[i] != 0; });
     (touches ? fine.blocks : fine.others).push_back(static_cast<std::int32_t>(b));
   }
 }

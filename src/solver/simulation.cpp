@@ -18,12 +18,6 @@ de::Kick make_kick(double alpha, double dt, Vec3 gravity) {
   return {(1 - b) / (1 + b), scaled, scaled, scaled * gravity};
 }
 
-/// The kick for one lattice's particles.
-de::Kick for_lattice(de::Kick kick, const Lattice& lattice) {
-  kick.per_mass /= lattice.mass, kick.per_inertia /= lattice.inertia;
-  return kick;
-}
-
 /// before ← 2 before − after: the mirror image of `after` about `before`.
 template <int N>
 void reflect(Field<N>& before, const Field<N>& after) {
@@ -98,7 +92,7 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
   {
     const auto timing = timers.time(Phase::lattice);
     for (Lattice& lattice : model.lattices) {  // (19)–(23), (3)–(5), (13); then (15)(17)(18), (24)(26)(27)
-      const de::Kick own = for_lattice(kick, lattice);
+      const de::Kick own = kick.of(lattice);
       if (subcycling.lattices())
         clear(lattice.listed_force);
       else
@@ -113,7 +107,7 @@ void Simulation::forces_and_kick(double kick_dt, bool arrived) {
     sums += kick_nodes(model.mesh, kick);  // (16)(25)
     sums += kick_touched(kick);
     for (Lattice& lattice : model.lattices)  // ghosts' spins; loaded and supported particles
-      sums += weighted(de::kick_listed(lattice, for_lattice(kick, lattice)), lattice);
+      sums += weighted(de::kick_listed(lattice, kick.of(lattice)), lattice);
     supports.apply(model, dt, g, arrived);
   }
   account(sums, kick_dt, arrived);
@@ -159,7 +153,7 @@ void Simulation::account_damping(double power, bool arrived) {
 de::KickSums Simulation::kick_touched(const de::Kick& kick) {
   de::KickSums sums;
   for (std::size_t l = 0; l < model.lattices.size(); ++l) {
-    const de::Kick own = for_lattice(kick, model.lattices[l]);
+    const de::Kick own = kick.of(model.lattices[l]);
     const auto change = contacts.kick_particles(static_cast<std::int32_t>(l), model.lattices[l], own.per_mass,
                                                 own.per_inertia);
     sums.across += change.across, sums.after += change.after;

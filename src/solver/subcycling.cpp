@@ -9,8 +9,6 @@
 namespace geist {
 namespace {
 
-constexpr std::size_t grain = 500;
-
 /// T_0(δ) … T_m(δ), and ω = 2 T_m'(δ) / T_m(δ), of damping ν.
 struct Chebyshev {
   double delta, omega;
@@ -60,9 +58,7 @@ Subcycling::Subcycling(const Model& model, const FinePart& part) {
   steps_ = substeps(part.m);
   fine_ = make_sweep(mesh, part.blocks), others_ = make_sweep(mesh, part.others);
   for (const std::int32_t b : part.blocks)
-    for (int l = 0; l < mesh.blocks[b].count; ++l)
-      nodes_.insert(nodes_.end(), mesh.elements[mesh.blocks[b].first + l].begin(),
-                    mesh.elements[mesh.blocks[b].first + l].end());
+    visit_nodes(mesh, mesh.blocks[b], [this](std::int32_t i) { nodes_.push_back(i); });
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
   for (const std::int32_t i : nodes_) still_.push_back(part.is_fine[i] ? mesh.held[i] : 0b111);
@@ -91,17 +87,22 @@ void Subcycling::add_mean_forces(Model& model, const coupling::Reactions& reacti
   end(model, timers);
 }
 
+/// f(place in nodes_, node)
+template <class F>
+void Subcycling::for_nodes(F f) const {
+  constexpr std::size_t grain = 500;
+  for_each(
+      nodes_.size(), [f, node = nodes_.data()](std::size_t n) { f(n, static_cast<std::size_t>(node[n])); },
+      grain);
+}
+
 void Subcycling::begin(Model& model, Timers& timers) {
   const auto timing = timers.time(Phase::nodes);
   Mesh& mesh = model.mesh;
-  for_each(
-      nodes_.size(),
-      [this, &mesh](std::size_t n) {
-        const auto i = static_cast<std::size_t>(nodes_[n]);
-        u_.set(n, mesh.u.vector(i)), rest_.set(n, mesh.f.vector(i)), mean_.set(n, mesh.f.vector(i));
-        mesh.f.set(i, {});
-      },
-      grain);
+  for_nodes([this, &mesh](std::size_t n, std::size_t i) {
+    u_.set(n, mesh.u.vector(i)), rest_.set(n, mesh.f.vector(i)), mean_.set(n, mesh.f.vector(i));
+    mesh.f.set(i, {});
+  });
   for (std::size_t l = 0; l < lattices_.size(); ++l) lattices_[l].begin(model.lattices[l]);
 }
 
@@ -119,48 +120,41 @@ void Subcycling::drift_lattices(Model& model, Timers& timers) {
 
 void Subcycling::kick_lattices(Model& model, const Substep& step, Vec3 gravity, double dt) {
   const double gain = step.gain * dt * dt;
+  const de::Kick kick{step.keep, gain, gain, gain * gravity};
   for (std::size_t l = 0; l < lattices_.size(); ++l) {
     Lattice& lattice = model.lattices[l];
-    const de::Kick kick{step.keep, gain / lattice.mass, gain / lattice.inertia, gain * gravity};
-    lattices_[l].step(lattice, kick, step.share);
+    lattices_[l].step(lattice, kick.of(lattice), step.share);
   }
 }
 
 /// Takes the forces of what is fine from mesh.f, which is zero again then.
 void Subcycling::kick_and_drift(Mesh& mesh, const Substep& step, Vec3 gravity, double dt) {
-  for_each(
-      nodes_.size(),
-      [=, this, &mesh, gain = step.gain * dt * dt](std::size_t n) {
-        const auto i = static_cast<std::size_t>(nodes_[n]);
-        const double per_mass = gain / mesh.mass[i];
-        for (int c = 0; c < 3; ++c) {
-          const double f = mesh.f[c][i];
-          mesh.f[c][i] = 0;
-          mean_[c][n] = fma(step.share, f, mean_[c][n]);
-          if (still_[n] >> c & 1) continue;
-          const double push = fma(per_mass, f + rest_[c][n], gain * gravity[c]);
-          increment_[c][n] = fma(step.keep, increment_[c][n], push);
-          mesh.u[c][i] += increment_[c][n];
-        }
-      },
-      grain);
+  for_nodes([=, this, &mesh, gain = step.gain * dt * dt](std::size_t n, std::size_t i) {
+    const double per_mass = gain / mesh.mass[i];
+    for (int c = 0; c < 3; ++c) {
+      const double f = mesh.f[c][i];
+      mesh.f[c][i] = 0;
+      mean_[c][n] = fma(step.share, f, mean_[c][n]);
+      if (still_[n] >> c & 1) continue;
+      const double push = fma(per_mass, f + rest_[c][n], gain * gravity[c]);
+      increment_[c][n] = fma(step.keep, increment_[c][n], push);
+      mesh.u[c][i] += increment_[c][n];
+    }
+  });
 }
 
 void Subcycling::end(Model& model, Timers& timers) {
   const auto timing = timers.time(Phase::nodes);
   Mesh& mesh = model.mesh;
-  for_each(
-      nodes_.size(),
-      [this, &mesh](std::size_t n) {
-        const auto i = static_cast<std::size_t>(nodes_[n]);
-        mesh.u.set(i, u_.vector(n)), mesh.f.set(i, mean_.vector(n));
-      },
-      grain);
+  for_nodes([this, &mesh](std::size_t n, std::size_t i) {
+    mesh.u.set(i, u_.vector(n)), mesh.f.set(i, mean_.vector(n));
+  });
   for (std::size_t l = 0; l < lattices_.size(); ++l) lattices_[l].end(model.lattices[l]);
 }
 
 de::KickSums Subcycling::kick(std::size_t l, Lattice& lattice, const de::Kick& kick, double dt) const {
-  return lattices_[l].kick(lattice, kick.keep, kick.per_mass * 2 / (dt * dt));
+  const double gain = kick.per_mass * 2 / (dt * dt);  // gravity is in Σ w_k
+  return lattices_[l].kick(lattice, {kick.keep, gain, gain, {}});
 }
 
 }  // namespace geist

@@ -68,6 +68,8 @@ class Subcycling {
   int ratio() const { return empty() ? 1 : static_cast<int>(steps_.size()); }
 
  private:
+  template <class F>
+  void for_nodes(F f) const;
   void begin(Model& model, Timers& timers);
   void drift_lattices(Model& model, Timers& timers);
   void kick_lattices(Model& model, const Substep& step, Vec3 gravity, double dt);

@@ -17,31 +17,12 @@ using namespace testing;
 constexpr double dt = 0.01;
 const Kick kick{0.99, 0.1, 0.7, {0.01, 0, -0.02}};
 
-struct Method {
-  bool consistent, finite;
-};
-
 class Advance : public ::testing::TestWithParam<Method> {
  protected:
-  /// Moved and pushed at random; of a grid with more planes, or longer ones, than there are threads.
-  Lattice moving(const std::array<int, 3>& n) {
-    Lattice lattice = GetParam().finite ? finite(random_lattice(n, 21), GetParam().consistent)
-                                        : small(random_lattice(n, 21), GetParam().consistent);
-    if (GetParam().finite)
-      turn_at_random(lattice, 22, 0.5);
-    else
-      move_at_random(lattice, 22);
-    push_at_random(lattice, 23);
-    return lattice;
-  }
+  /// Of a grid with more planes, or longer ones, than there are threads.
+  Lattice moving(const std::array<int, 3>& n) { return testing::moving(GetParam(), n); }
 };
-INSTANTIATE_TEST_SUITE_P(Lattices, Advance,
-                         ::testing::Values(Method{false, false}, Method{true, false}, Method{false, true},
-                                           Method{true, true}),
-                         [](const auto& is) {
-                           return std::string(is.param.consistent ? "consistent" : "published") +
-                                  (is.param.finite ? "_finite" : "_small");
-                         });
+INSTANTIATE_TEST_SUITE_P(Lattices, Advance, all_methods, name_of);
 
 /// Everything that a step changes.
 std::vector<std::uint64_t> bits_of(const Lattice& lattice, const KickSums& sums) {

@@ -73,13 +73,7 @@ TEST(Kick, SumsAreThoseOfTheFreeParticles) {
     Lattice lattice = pushed_lattice(n);
     const Lattice before = pushed_lattice(n);
     const KickSums found = bond_forces_and_kick(lattice, kick);
-    KickSums expected;
-    for (std::size_t s = 0; s < lattice.grid.size(); ++s)
-      for (int c = 0; c < 6 && lattice.is(s, site::free); ++c) {
-        const double v = before.velocity[c][s], w = lattice.velocity[c][s];
-        (c < 3 ? expected.across : expected.spin_across) += v * w;
-        (c < 3 ? expected.after : expected.spin_after) += w * w;
-      }
+    const KickSums expected = sums_of_free(before, lattice);
     // Σ v⁻v⁺ has terms of both signs; their sizes add up to less than √(Σ v⁻² Σ v⁺²) ≤ Σ v⁺² here.
     EXPECT_NEAR(found.after, expected.after, 1e-13 * expected.after);
     EXPECT_NEAR(found.across, expected.across, 1e-13 * expected.after);

@@ -131,6 +131,30 @@ double Loads6::largest() const {
   return most;
 }
 
+std::string name_of(const ::testing::TestParamInfo<Method>& is) {
+  return std::string(is.param.consistent ? "consistent" : "published") +
+         (is.param.finite ? "_finite" : "_small");
+}
+
+Lattice moving(Method method, const std::array<int, 3>& n) {
+  Lattice lattice = method.finite ? finite(random_lattice(n, 21), method.consistent)
+                                  : small(random_lattice(n, 21), method.consistent);
+  method.finite ? turn_at_random(lattice, 22, 0.5) : move_at_random(lattice, 22);
+  push_at_random(lattice, 23);
+  return lattice;
+}
+
+KickSums sums_of_free(const Lattice& before, const Lattice& after) {
+  KickSums sums;
+  for (std::size_t s = 0; s < after.grid.size(); ++s)
+    for (int c = 0; c < 6 && after.is(s, site::free); ++c) {
+      const double v = before.velocity[c][s], w = after.velocity[c][s];
+      (c < 3 ? sums.across : sums.spin_across) += v * w;
+      (c < 3 ? sums.after : sums.spin_after) += w * w;
+    }
+  return sums;
+}
+
 Literal literal(const Lattice& lattice) {
   const std::size_t n = lattice.grid.size();
   const double E = lattice.material.young, nu = lattice.material.poisson, r = lattice.radius();

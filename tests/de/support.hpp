@@ -4,7 +4,10 @@
 // every pair of sites at distance 2r or 2√2 r is a bond if one of the two is a particle; its mid-point c
 // belongs to both, each of which carries it with u + θ × (c − x); f = k_n d_n + k_s d_t; m = (c − x) × f.
 #pragma once
+#include <gtest/gtest.h>
+
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "de/bonds.hpp"
@@ -45,6 +48,20 @@ void set_rotation(Lattice& lattice, std::size_t s, const Mat3& R);
 
 /// Displacements of up to `amount` times r, rotations of up to `amount`, beside one that all share.
 void turn_at_random(Lattice& lattice, int seed, double amount);
+
+/// What kernel a lattice is for.
+struct Method {
+  bool consistent, finite;
+};
+inline const auto all_methods =
+    ::testing::Values(Method{false, false}, Method{true, false}, Method{false, true}, Method{true, true});
+std::string name_of(const ::testing::TestParamInfo<Method>& is);
+
+/// A lattice of all kinds of sites, moved and pushed at random.
+Lattice moving(Method method, const std::array<int, 3>& n);
+
+/// Σ v⁻·v⁺ and Σ v⁺·v⁺ of its free particles, and those of spins.
+KickSums sums_of_free(const Lattice& before, const Lattice& after);
 
 /// By site: force and moment.
 struct Loads6 {
