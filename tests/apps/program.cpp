@@ -4,21 +4,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 namespace geist::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// In the child: run the program with its output in files; does not return.
 [[noreturn]] void become(const fs::path& directory, const std::string& out, std::vector<char*> arguments) {
@@ -65,14 +56,7 @@ quantity = "displacement"
 component = "z"
 )";
 
-Program::Program() {
-  std::string name = (fs::temp_directory_path() / "geist-test-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory");
-  directory_ = name;
-  write("case.toml", beam);
-}
-
-Program::~Program() { fs::remove_all(directory_); }
+Program::Program() { write("case.toml", beam); }
 
 int Program::start(const std::vector<std::string>& arguments, const std::string& out) {
   std::vector<std::string> words{"geist"};
@@ -89,7 +73,7 @@ Ended Program::wait_for(int process) {
   int status = 0;
   waitpid(process, &status, 0);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  return {code, text_of(directory_ / "stdout.txt"), text_of(directory_ / "stderr.txt")};
+  return {code, read_text(directory_ / "stdout.txt"), read_text(directory_ / "stderr.txt")};
 }
 
 Ended Program::run(const std::vector<std::string>& arguments, const std::string& out) {
@@ -100,7 +84,7 @@ void Program::write(const std::string& name, const std::string& text) const {
   std::ofstream(directory_ / name, std::ios::binary) << text;
 }
 
-std::string Program::read(const std::string& name) const { return text_of(directory_ / name); }
+std::string Program::read(const std::string& name) const { return read_text(directory_ / name); }
 
 nlohmann::json Program::summary(const std::string& folder) const {
   return nlohmann::json::parse(read(folder + "/summary.json"));
@@ -110,7 +94,7 @@ std::map<std::string, std::string> Program::contents(const std::string& folder) 
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(directory_ / folder))
     if (entry.is_regular_file())
-      files[fs::relative(entry.path(), directory_ / folder).string()] = text_of(entry.path());
+      files[fs::relative(entry.path(), directory_ / folder).string()] = read_text(entry.path());
   return files;
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "scratch.hpp"
+
 namespace geist::testing {
 
 /// A short beam, half hexahedra and half particles; quasi-static, done in a fraction of a second.
@@ -23,7 +25,6 @@ struct Ended {
 class Program : public ::testing::Test {
  protected:
   Program();
-  ~Program() override;
 
   /// Run to the end. Standard output goes to the file `out` if one is named.
   Ended run(const std::vector<std::string>& arguments, const std::string& out = "");
@@ -38,7 +39,8 @@ class Program : public ::testing::Test {
   std::map<std::string, std::string> contents(const std::string& folder) const;
   bool exists(const std::string& name) const { return std::filesystem::exists(directory_ / name); }
 
-  std::filesystem::path directory_;
+  const Scratch scratch_;
+  const std::filesystem::path& directory_ = scratch_.path;
 };
 
 }  // namespace geist::testing

@@ -15,18 +15,6 @@ namespace geist::testing {
 
 namespace fs = std::filesystem;
 
-Scratch::Scratch() {
-  std::string pattern = fs::temp_directory_path() / "geist-test-XXXXXX";
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("no scratch directory");
-  path = pattern;
-}
-Scratch::~Scratch() { fs::remove_all(path); }
-
-std::string read_text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 FullDisk::FullDisk(std::size_t bytes) {
   std::signal(SIGXFSZ, SIG_IGN);
   rlimit limit{};

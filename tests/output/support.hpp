@@ -7,20 +7,10 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "scratch.hpp"
 #include "solver/simulation.hpp"
 
 namespace geist::testing {
-
-/// An empty directory that is removed with everything in it at the end of its scope.
-class Scratch {
- public:
-  Scratch();
-  ~Scratch();
-  std::filesystem::path operator/(const std::string& name) const { return path / name; }
-  std::filesystem::path path;
-};
-
-std::string read_text(const std::filesystem::path& path);
 
 /// What action() throws as std::runtime_error, or nothing.
 template <class F>
